@@ -1,0 +1,75 @@
+// A backend runs the march over all pixels. It sees kernels, uniforms and buffers: nothing of optical models,
+// file formats or the config.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/interfaces/kernel_unit.h"
+#include "framework/interfaces/plugin.h"
+
+namespace dvrlab {
+
+/// One frame, fully resolved. The kernel's uniforms lie in the units.
+struct FrameJob {
+  int width = 0, height = 0;
+  bool rgb = false;   // extinction differs between channels
+  bool full = false;  // needs more than extinction and unshaded source
+  bool fast = false;  // precision "fast": contraction is allowed
+  KernelUnit frame;   // camera, sampling, lights, medium; kernel texts of framework/kernel
+  KernelUnit sampler;
+  KernelUnit estimator;
+  std::string kernel_folder;  // framework/kernel
+};
+
+/// Row 0 is the top row. Seven values per pixel.
+struct FrameImage {
+  int width = 0, height = 0;
+  std::vector<float> color;  // 3 per pixel: radiance including T * background
+  std::vector<float> trans;  // 3 per pixel: transmittance
+};
+
+struct FrameCounters {
+  std::uint64_t samples = 0;     // segments that were composited
+  std::uint64_t skipped = 0;     // segments skipped as empty
+  std::uint64_t terminated = 0;  // rays ended by early termination
+};
+
+struct PhaseTime {
+  std::string phase;
+  double seconds;      // wall time
+  double cpu_seconds;  // user + system time of the process; < 0 when not measured
+};
+
+struct FrameResult {
+  FrameImage image;
+  FrameCounters counters;
+  std::vector<PhaseTime> times;
+};
+
+/// What runs the frames, for the result file.
+struct DeviceInfo {
+  std::string device, driver, api;
+  std::string detail;  // instruction set and threads; or the limits that were used
+};
+
+/// A backend that is ready to render: device open, options fixed. Used by one thread.
+class BackendSession {
+ public:
+  virtual ~BackendSession() = default;
+  virtual DeviceInfo device() const = 0;
+  /// Bytes on top of the job's buffers that render() will allocate.
+  virtual std::uint64_t bytes_needed(const FrameJob& job) const = 0;
+  /// Uploads and compiles what changed since the last call, renders, blocks until done.
+  virtual void render(const FrameJob& job, FrameResult& result) = 0;
+};
+
+class BackendPlugin : public Plugin {
+ public:
+  /// Throws NotSupported with the reason (no device, no driver, instruction set missing).
+  virtual std::unique_ptr<BackendSession> open(const ParameterSet& parameters, const std::string& plugin_folder) const = 0;
+};
+
+}  // namespace dvrlab

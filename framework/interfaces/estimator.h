@@ -1,0 +1,37 @@
+// An estimator integrates the medium over one segment (docs/math, section B). Its kernel is one function,
+//   segment_kernel(segment q, OUT(vec3r) c, OUT(spectral) t)
+// in <name>.kernel; the host side declares it and builds its tables.
+#pragma once
+
+#include "framework/interfaces/kernel_unit.h"
+#include "framework/interfaces/medium.h"
+#include "framework/interfaces/plugin.h"
+
+namespace dvrlab {
+
+struct EstimatorDeclaration {
+  enum class Samples { ends, centre };
+  Samples samples = Samples::ends;
+  /// True: the kernel assumes that every segment has the nominal step.
+  bool fixed_length = false;
+  /// `centre`: also needs v_prev and v_next (for |dv| terms).
+  bool neighbours = false;
+  /// The terms that it can integrate, Terms::bit(...) | ...
+  unsigned handles = 0;
+};
+
+/// What an estimator is told beside its own parameters. Values are stored units.
+struct EstimatorContext {
+  const Medium* medium;
+  double value_min, value_max;
+  double step;  // world units
+};
+
+class EstimatorPlugin : public Plugin {
+ public:
+  virtual EstimatorDeclaration declaration() const = 0;
+  /// Tables and derived uniforms. The numeric parameters are added by the framework.
+  virtual void prepare(const ParameterSet& parameters, const EstimatorContext& context, KernelUnit& unit) const;
+};
+
+}  // namespace dvrlab

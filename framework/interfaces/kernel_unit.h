@@ -1,0 +1,55 @@
+// What a part that carries a kernel gives to a backend: its kernel text, its uniforms and its buffers.
+// The same unit feeds the GLSL composer (uniform blocks, storage buffers) and the CPU kernel modules.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/interfaces/parameter_set.h"
+
+namespace dvrlab {
+
+/// A value that is the same for all pixels. Names are unique over the whole shader: `<plugin>_<name>`.
+struct Uniform {
+  enum class Type { f32, i32, vec4 };
+  std::string name;
+  Type type = Type::f32;
+  std::array<float, 4> f{};
+  int i = 0;
+  /// Compiled into a GPU's shader as a literal, so that unused code disappears there.
+  bool constant = false;
+
+  static Uniform real(std::string name, double value);
+  static Uniform integer(std::string name, int value);
+  static Uniform constant_integer(std::string name, int value);
+  static Uniform vector(std::string name, double x, double y, double z, double w = 0.0);
+};
+
+enum class Element { u8, i8, u16, i16, f32, vec4, i32 };
+std::size_t bytes_of(Element e);
+
+/// An array that kernels read through fetch primitives only. The memory is shared, never copied by the owner.
+struct Buffer {
+  std::string name;
+  Element element = Element::f32;
+  std::shared_ptr<const void> data;
+  std::uint64_t count = 0;  // elements
+  std::uint64_t bytes() const { return count * bytes_of(element); }
+};
+
+/// One kernel with everything that it reads.
+struct KernelUnit {
+  std::string plugin;  // "direct"
+  std::string folder;  // where <plugin>.kernel and <plugin>.<isa>.so lie
+  std::vector<Uniform> uniforms;
+  std::vector<Buffer> buffers;
+};
+
+/// The numeric parameters of a plugin as uniforms `<plugin>_<name>`: numbers as f32, whole numbers, booleans and
+/// choices (their index) as i32, vectors as vec4. Texts, nodes and structures are left to the plugin.
+std::vector<Uniform> uniforms_of(const std::string& plugin, const ParameterSet& parameters);
+
+}  // namespace dvrlab

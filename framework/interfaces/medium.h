@@ -1,0 +1,76 @@
+// The medium: the normal form of every optical model (docs/math, section A). The only thing that an estimator
+// ever sees of an optical model.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "framework/interfaces/plugin.h"
+#include "framework/interfaces/parameter_set.h"
+
+namespace dvrlab {
+
+/// The terms of the normal form, three columns (r, g, b) each. Units: *_l per world length, *_s per unit of value.
+enum class Term { tau_l, E, P, S_l, W_l, tau_s, S_s, W_s };
+inline constexpr int term_count = 8;
+inline constexpr int medium_columns = 3 * term_count;
+inline constexpr int column(Term t, int channel) { return 3 * static_cast<int>(t) + channel; }
+
+/// A bit set of terms, for `handles` and for what a medium uses.
+struct Terms {
+  unsigned bits = 0;
+  static constexpr unsigned bit(Term t) { return 1u << static_cast<int>(t); }
+  static constexpr unsigned dirac_bit = 1u << term_count;
+  static constexpr unsigned rgb_bit = 1u << (term_count + 1);  // extinction differs between channels
+  bool has(Term t) const { return (bits & bit(t)) != 0; }
+  bool dirac() const { return (bits & dirac_bit) != 0; }
+  bool rgb() const { return (bits & rgb_bit) != 0; }
+  /// "tau_l, S_l, Dirac": for messages.
+  std::string text() const;
+};
+
+/// All columns on [v0, v1) as polynomials c[0] + c[1] t + c[2] t^2 of t = (v - v0) / (v1 - v0).
+struct MediumInterval {
+  double v0, v1;
+  std::array<std::array<double, 3>, medium_columns> c;
+};
+
+/// A discrete isosurface of optical depth mu (may be infinite) and colour c.
+struct Dirac {
+  double v;
+  Vector3 mu, c;
+};
+
+/// Piecewise quadratic in the value v, constant outside [front().v0, back().v1]. Intervals are contiguous and
+/// ascending; a jump is a change between neighbours, and the value at a jump is the right one.
+struct Medium {
+  std::vector<MediumInterval> interval;
+  std::vector<Dirac> dirac;
+
+  /// All columns at v. `from_left` asks for the limit from the left.
+  std::array<double, medium_columns> at(double v, bool from_left = false) const;
+  Terms terms() const;
+  /// True if every column is 0 and there is no Dirac on the closed interval [a, b].
+  bool empty(double a, double b) const;
+  /// True if S_l, W_l, S_s, W_s are 0 and there is no Dirac on the closed interval [a, b].
+  bool unshaded(double a, double b) const;
+  /// The same medium as a function of w = (v - intercept) / slope. Surface terms are per unit of w then.
+  Medium rescaled(double slope, double intercept) const;
+};
+
+/// What an optical model is told beside its own parameters.
+struct ModelContext {
+  double length_unit;               // world units per unit of the config's lengths
+  bool opacity_interpolation;       // `interpolation`: false = "extinction", true = "opacity"
+  double value_min, value_max;      // the data's physical range
+  std::vector<std::string>* notes;  // what was capped or refined, said aloud
+};
+
+/// An optical model: transfer functions in, medium out. Host code only.
+class OpticalModelPlugin : public Plugin {
+ public:
+  virtual Medium medium(const ParameterSet& parameters, const ModelContext& context) const = 0;
+};
+
+}  // namespace dvrlab

@@ -1,0 +1,35 @@
+// The declaration of one parameter, as data. Everything else that speaks of the parameter (the value in a
+// kernel's uniform block, the validator, `dvrlab describe`, the documentation table) is derived from it.
+#pragma once
+
+namespace dvrlab {
+
+enum class ParameterType {
+  boolean,   // true | false
+  integer,   // whole number
+  number,    // IEEE double, finite
+  text,      // free text, e.g. a path
+  choice,    // one word of `legal`
+  vector3,   // [x, y, z]
+  integer3,  // [i, j, k]
+  nodes,     // transfer function nodes [[v, x], ...] or [[v, r, g, b], ...], or null for "not given"
+  json       // a structure that the plugin reads itself; `summary` says which
+};
+
+/// What a changed value may change. The liveness contract test holds every parameter to its word.
+enum class Affects { pixels, speed, nothing };
+
+/// One parameter. Plain data: all strings are literals owned by the plugin.
+struct Parameter {
+  const char* name;           // the JSON key
+  ParameterType type;
+  const char* unit;           // "" when it has none
+  const char* default_value;  // JSON text; nullptr when the key is required
+  const char* legal;          // integer, number: an interval such as "[0,inf)"; choice: "a|b|c"; nodes: "1", "3", "1|3"; else ""
+  const char* summary;        // one sentence
+  Affects affects;
+  const char* live_in = "";     // JSON merge patch on the plugin's example config in which `live_value` must act
+  const char* live_value = "";  // JSON text of a second legal value for the liveness test
+};
+
+}  // namespace dvrlab
