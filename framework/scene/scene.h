@@ -1,0 +1,40 @@
+// The scene stage: a resolved case becomes a FrameJob (kernels, uniforms, buffers), with everything said aloud.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/config/resolved_case.h"
+#include "framework/interfaces/backend.h"
+#include "framework/interfaces/field.h"
+#include "framework/interfaces/medium.h"
+#include "framework/plugin/registry.h"
+
+namespace dvrlab {
+
+struct Scene {
+  std::shared_ptr<const Field> field;
+  Medium medium;  // in stored units
+  FrameJob job;
+  double step = 0;                 // world units
+  std::vector<std::string> notes;  // conversions, caps: what the log and the result file say
+};
+
+/// Loads the case's data (through a cache by resolved data section, so that an experiment loads each file once).
+class FieldCache {
+ public:
+  std::shared_ptr<const Field> load(const ResolvedCase& c, const Registry& registry);
+
+ private:
+  std::vector<std::pair<std::string, std::shared_ptr<const Field>>> entries_;
+};
+
+/// Everything that can be refused without reading the data: an estimator that cannot integrate a term of the
+/// model, more than four lights, ... Throws InputError naming the key.
+void check_case(const ResolvedCase& c, const Registry& registry);
+
+/// Throws InputError (impossible combination) or NotSupported (memory).
+Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_ptr<const Field> field);
+
+}  // namespace dvrlab
