@@ -52,10 +52,12 @@ struct GridField : Field {
 /// A field that is evaluated by its formula at every sample; value and gradient are exact up to fp32.
 struct FormulaField : Field {
   std::vector<Uniform> uniforms;  // for the formula sampler
+  std::vector<Buffer> buffers;
 };
 
-/// Sets stored_min and stored_max from the voxels and applies the nan policy ("error", or a number to put in).
-/// Throws InputError naming the first voxel that is not finite.
+/// Completes a grid whose dims, type, voxels and to_world are set: sampler, lo, hi, voxel, stored_min and stored_max.
+/// Applies the nan policy ("error", or "replace": `nan_value`, in stored units, for every NaN and Inf, with a note).
+/// Throws InputError naming the first voxel that is not finite, a dimension below 2, or a singular affine.
 void finish_grid(GridField& grid, const std::string& nan_policy, double nan_value);
 
 /// Where a data plugin finds files, and whom it tells.
