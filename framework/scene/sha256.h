@@ -1,0 +1,13 @@
+// The fingerprint of data in result files.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace dvrlab {
+
+/// SHA-256 of the parts, one after the other, as 64 hexadecimal digits.
+std::string sha256(std::initializer_list<std::span<const std::byte>> parts);
+
+}  // namespace dvrlab

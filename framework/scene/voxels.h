@@ -1,0 +1,45 @@
+// From the bytes of a file to the voxels of a grid: what every reader of a grid format shares.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "framework/interfaces/field.h"
+
+namespace dvrlab {
+
+/// The number types that files hold.
+enum class SourceType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+std::size_t bytes_of(SourceType type);
+/// "int8", "float64".
+const char* name_of(SourceType type);
+
+/// The type in which a grid keeps it: its own, or float32.
+VoxelType kept_type(SourceType type);
+std::size_t bytes_of(VoxelType type);
+
+/// Voxels as a file holds them, x fastest. `swap`: of the other byte order.
+struct SourceVoxels {
+  SourceType type = SourceType::u8;
+  bool swap = false;
+  std::shared_ptr<const void> data;  // any alignment
+};
+
+/// Number of bytes of a grid of `element` bytes per voxel. Throws InputError, `where` in front, when a dimension is
+/// below 2 or beyond 2^31-1, or when the product does not fit 63 bits.
+std::uint64_t grid_bytes(const std::array<long long, 3>& dims, std::size_t element, const std::string& where);
+
+/// Sets type and voxels of a grid whose dims are set. Memory is shared when nothing has to change; otherwise the
+/// voxels are copied, with a note (and the largest rounding error) when the type becomes float32.
+/// Throws InputError, `where` in front, for a finite value that float32 cannot hold.
+void set_voxels(GridField& grid, const SourceVoxels& source, const std::string& where);
+
+/// Bytes that set_voxels allocates for `count` voxels.
+std::uint64_t set_voxels_bytes(SourceType type, bool swap, std::uint64_t count);
+
+/// Uninitialised memory for voxels, aligned for every instruction set. Throws NotSupported when there is too little.
+std::shared_ptr<void> allocate_voxels(std::uint64_t bytes, const std::string& where);
+
+}  // namespace dvrlab
