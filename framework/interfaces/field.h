@@ -55,8 +55,9 @@ struct FormulaField : Field {
   std::vector<Buffer> buffers;
 };
 
-/// Completes a grid whose dims, type, voxels and to_world are set: sampler, lo, hi, voxel, stored_min and stored_max.
-/// Applies the nan policy ("error", or "replace": `nan_value`, in stored units, for every NaN and Inf, with a note).
+/// Completes a grid whose dims, type, voxels, to_world, slope, intercept and source are set: sampler, lo, hi, voxel,
+/// stored_min and stored_max. Applies the nan policy ("error", or "replace": every NaN and Inf becomes the physical
+/// value `nan_value`, with a note).
 /// Throws InputError naming the first voxel that is not finite, a dimension below 2, or a singular affine.
 void finish_grid(GridField& grid, const std::string& nan_policy, double nan_value);
 

@@ -94,10 +94,10 @@ void repair(GridField& grid, const std::string& nan_policy, double nan_value) {
                      "; clean the data or set data.nan_policy to \"replace\"");
   }
   const auto memory = allocate_voxels(grid.bytes(), grid.source);
-  auto* out = static_cast<float*>(memory.get());
-  std::replace_copy_if(v, v + grid.count(), out, bad, static_cast<float>(nan_value));
+  const auto stored = static_cast<float>((nan_value - grid.intercept) / grid.slope);
+  std::replace_copy_if(v, v + grid.count(), static_cast<float*>(memory.get()), bad, stored);
   grid.notes.push_back(std::to_string(std::count_if(v, v + grid.count(), bad)) +
-                       " voxels that are NaN or infinite were replaced by " + std::to_string(nan_value));
+                       " voxels that are NaN or infinite were replaced by the value " + std::to_string(nan_value));
   grid.voxels = memory;
 }
 

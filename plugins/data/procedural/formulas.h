@@ -12,16 +12,16 @@ namespace dvrlab::procedural {
 /// The values are those of the constant uniform `formula_kind`. Layouts are written p0 = (x, y, z, w). A `direction`
 /// is normalised. Angles are in turns, for sin2pi; cos2pi(u) = sin2pi(u + 1/4). c = centre, r = |x - c|.
 enum class Kind : int {
-  constant = 0,  // v = p0.x
-                 //   gradient 0
-  ramp = 1,      // p0 = (scale * direction, offset):  v = p0.w + dot(p0.xyz, x)
-                 //   gradient p0.xyz
-  radial = 2,    // p0 = (c, offset), p1 = (scale, -, -, -):  v = p0.w + p1.x r
-                 //   gradient p1.x (x-c)/r, 0 at r = 0
-  sphere = 3,    // p0 = (c, offset), p1 = (scale, 1/radius, -, -):  v = p0.w + p1.x max(0, 1 - p1.y r)
-                 //   gradient -p1.x p1.y (x-c)/r for p1.y r < 1, else 0; 0 at r = 0
-  marschner_lobb = 4,  // p0 = (A, B, C, f_m), with n = scale/(2(1+alpha)): A = offset + n(1+alpha), B = -n, C = n alpha;
-                       // q = sqrt(x^2+y^2), u = cos2pi(q/4):  v = A + B sin2pi(z/4) + C cos2pi(f_m u)
+  constant = 0,        // v = p0.x
+                       //   gradient 0
+  ramp = 1,            // p0 = (scale * direction, offset):  v = p0.w + dot(p0.xyz, x)
+                       //   gradient p0.xyz
+  radial = 2,          // p0 = (c, offset), p1 = (scale, -, -, -):  v = p0.w + p1.x r
+                       //   gradient p1.x (x-c)/r, 0 at r = 0
+  sphere = 3,          // p0 = (c, offset), p1 = (scale, 1/radius, -, -):  v = p0.w + p1.x max(0, 1 - p1.y r)
+                       //   gradient -p1.x p1.y (x-c)/r for p1.y r < 1, else 0; 0 at r = 0
+  marschner_lobb = 4,  // p0 = (A, B, C, f_m), with n = scale/(2(1+alpha)): A = offset + n(1+alpha), B = -n, C = n
+                       // alpha; q = sqrt(x^2+y^2), u = cos2pi(q/4):  v = A + B sin2pi(z/4) + C cos2pi(f_m u)
                        //   dv/dz = B (pi/2) cos2pi(z/4)
                        //   dv/dq = C pi^2 f_m sin2pi(q/4) sin2pi(f_m u), times (x, y)/q; 0 at q = 0
   sinusoid = 5,    // p0 = (direction, -), p1 = (a, b, omega/2pi, phi/2pi), s = dot(p0.xyz, x):

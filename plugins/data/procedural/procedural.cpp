@@ -1,0 +1,129 @@
+// Fields that are formulas: on a grid of stated size and type, or evaluated at every sample (formula sampler).
+#include <algorithm>
+#include <cmath>
+
+#include "framework/interfaces/error.h"
+#include "framework/interfaces/field.h"
+#include "framework/scene/sha256.h"
+#include "framework/scene/voxels.h"
+#include "plugins/data/procedural/fill_grid.h"
+
+namespace dvrlab::procedural {
+namespace {
+
+using enum ParameterType;
+constexpr Parameter parameters[] = {
+    {"field", choice, "", R"("marschner_lobb")",
+     "constant|ramp|radial|sphere|marschner_lobb|sinusoid|polynomial|polyline|march_table",
+     "The formula; the keys that it reads stand in the documentation.", Affects::pixels, "{}", R"("sphere")"},
+    {"evaluate", choice, "", R"("grid")", "grid|formula", "On a grid of voxels, or exactly at every sample.",
+     Affects::pixels, "{}", R"("formula")"},
+    {"bounds", json, "world", "[[-1,-1,-1],[1,1,1]]", "", "Lower and upper corner of the box, [[x,y,z],[x,y,z]].",
+     Affects::pixels, "{}", "[[-1,-1,-1],[1,1,0.5]]"},
+    {"size", integer3, "voxels", "[64,64,64]", "[2,16384]",
+     "Grid points along each axis; for a formula it only sets the length unit `voxel`.", Affects::pixels, "{}",
+     "[33,30,28]"},
+    {"voxel_type", choice, "", R"("float32")", "uint8|int8|uint16|int16|float32", "Type of the voxels of a grid.",
+     Affects::pixels, "{}", R"("uint8")"},
+    {"range", json, "value", "null", "",
+     "Integer types: values [lo, hi] of the smallest and the largest stored number; null: the range of the formula.",
+     Affects::pixels, R"({"data":{"voxel_type":"uint8"}})", "[0.2,0.6]"},
+    {"placement", choice, "", R"("points")", "points|cell_centres",
+     "Grid points from bound to bound, or in the middle of the cells that fill the bounds.", Affects::pixels, "{}",
+     R"("cell_centres")"},
+    {"value", number, "value", "0.5", "", "constant: the value.", Affects::pixels, R"({"data":{"field":"constant"}})",
+     "0.8"},
+    {"direction", vector3, "", "[1,0,0]", "", "ramp, sinusoid, polyline: the direction in which the field varies.",
+     Affects::pixels, R"({"data":{"field":"ramp"}})", "[0,1,1]"},
+    {"offset", number, "value", "0", "", "ramp, radial, sphere, marschner_lobb, polynomial: added to the field.",
+     Affects::pixels, R"({"data":{"field":"ramp"}})", "0.25"},
+    {"scale", number, "value", "1", "",
+     "ramp, radial: change per world unit; sphere, marschner_lobb, polynomial: factor of the field.", Affects::pixels,
+     R"({"data":{"field":"ramp"}})", "0.5"},
+    {"center", vector3, "world", "[0,0,0]", "", "radial, sphere: the centre.", Affects::pixels,
+     R"({"data":{"field":"radial"}})", "[0.3,0,0]"},
+    {"radius", number, "world", "1", "(0,inf)", "sphere: where the value has fallen to `offset`.", Affects::pixels,
+     R"({"data":{"field":"sphere"}})", "0.6"},
+    {"alpha", number, "", "0.25", "[0,inf)", "marschner_lobb: weight of the rings.", Affects::pixels, "{}", "0.6"},
+    {"f_m", number, "1/world", "6", "[0,inf)", "marschner_lobb: frequency of the rings.", Affects::pixels, "{}", "3"},
+    {"a", number, "value", "0.5", "", "sinusoid: mean.", Affects::pixels, R"({"data":{"field":"sinusoid"}})", "0.4"},
+    {"b", number, "value", "0.5", "", "sinusoid: amplitude.", Affects::pixels, R"({"data":{"field":"sinusoid"}})",
+     "0.3"},
+    {"omega", number, "radian/world", "6.283185307179586", "", "sinusoid: angular frequency.", Affects::pixels,
+     R"({"data":{"field":"sinusoid"}})", "4"},
+    {"phi", number, "radian", "0", "", "sinusoid: phase.", Affects::pixels, R"({"data":{"field":"sinusoid"}})", "1"},
+    {"node", nodes, "world, value", "[[-1,0],[1,1]]", "1",
+     "polyline: [[position, value], ...] along `direction`, ascending; constant outside.", Affects::pixels,
+     R"({"data":{"field":"polyline"}})", "[[-1,0],[0,0.8],[1,0.1]]"},
+};
+
+constexpr VoxelType voxel_types[] = {VoxelType::u8, VoxelType::i8, VoxelType::u16, VoxelType::i16, VoxelType::f32};
+
+std::array<long long, 3> sizes(const ParameterSet& p) {
+  const auto size = p.integer3("size");
+  return {size[0], size[1], size[2]};
+}
+
+std::string describe(const ParameterSet& p) {
+  return "procedural " + p.text("field") + (p.text("evaluate") == "formula" ? ", formula" : ", grid");
+}
+
+std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& box, const ParameterSet& p) {
+  if (f.kind == Kind::march_table)
+    throw InputError(p.path_of("evaluate") + ": march_table is defined on a grid only; set it to \"grid\"");
+  auto field = std::make_shared<FormulaField>();
+  field->sampler = "formula";
+  field->lo = box.lo;
+  field->hi = box.hi;
+  const auto size = sizes(p);
+  field->voxel = (box.hi[0] - box.lo[0]) / static_cast<double>(size[0] - 1);
+  for (std::size_t a = 1; a < 3; ++a)
+    field->voxel = std::min(field->voxel, (box.hi[a] - box.lo[a]) / static_cast<double>(size[a] - 1));
+  const auto [lo, hi] = range(f, box.lo, box.hi);
+  field->stored_min = lo;
+  field->stored_max = hi;
+  field->source = describe(p);
+  const auto vector = [&](const char* name, const std::array<double, 4>& x) {
+    field->uniforms.push_back(Uniform::vector(name, x[0], x[1], x[2], x[3]));
+  };
+  field->uniforms.push_back(Uniform::constant_integer("formula_kind", static_cast<int>(f.kind)));
+  field->uniforms.push_back(Uniform::integer("formula_count", static_cast<int>(f.node.size())));
+  vector("formula_p0", f.p[0]);
+  vector("formula_p1", f.p[1]);
+  const auto nodes_f32 = std::make_shared<std::vector<std::array<float, 4>>>();
+  for (const auto& n : f.node)
+    nodes_f32->push_back({static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]), 0.0f});
+  field->buffers.push_back({"formula_nodes", Element::vec4, {nodes_f32, nodes_f32->data()}, nodes_f32->size()});
+  return field;
+}
+
+class Procedural : public DataPlugin {
+ public:
+  std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
+    const FormulaParams f = make_formula(p);
+    const Box box = read_bounds(p);
+    if (p.text("evaluate") == "formula") return formula_field(f, box, p);
+    bytes_needed(p, context);  // refuses sizes that overflow
+    const auto grid = std::make_shared<GridField>(
+        fill_grid(f, {p.integer3("size"), voxel_types[p.choice_index("voxel_type")], box,
+                      p.text("placement") == "cell_centres", read_range(p, range(f, box.lo, box.hi))}));
+    grid->source = describe(p);
+    grid->sha256 = sha256({{static_cast<const std::byte*>(grid->voxels.get()), grid->bytes()}});
+    finish_grid(*grid, context.nan_policy, context.nan_value);
+    return grid;
+  }
+
+  std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext&) const override {
+    const std::uint64_t bytes =
+        grid_bytes(sizes(p), bytes_of(voxel_types[p.choice_index("voxel_type")]), p.path_of("size"));
+    return p.text("evaluate") == "formula" ? 0 : bytes;
+  }
+};
+
+}  // namespace
+
+DVRLAB_PLUGIN("data", "procedural", "1.0.0", Procedural, parameters,
+              "Fields given by a formula, on a grid or evaluated at every sample, with exact values and gradients.",
+              "Marschner and Lobb, IEEE Visualization 1994, doi:10.1109/VISUAL.1994.346331 (marschner_lobb)")
+
+}  // namespace dvrlab::procedural
