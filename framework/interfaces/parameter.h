@@ -25,7 +25,9 @@ struct Parameter {
   ParameterType type;
   const char* unit;           // "" when it has none
   const char* default_value;  // JSON text; nullptr when the key is required
-  const char* legal;          // integer, number: an interval such as "[0,inf)"; choice: "a|b|c"; nodes: "1", "3", "1|3"; else ""
+  // integer, number, vector3, integer3: an interval such as "[0,inf)"; choice: "a|b|c"; nodes: components, "1", "3"
+  // or "1|3"; json: what is legal, in words; else ""
+  const char* legal;
   const char* summary;        // one sentence
   Affects affects;
   const char* live_in = "";     // JSON merge patch on the plugin's example config in which `live_value` must act

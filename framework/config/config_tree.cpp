@@ -1,0 +1,150 @@
+#include "framework/config/config_tree.h"
+
+#include "framework/interfaces/error.h"
+
+namespace dvrlab {
+namespace {
+
+bool is_index(const std::string& step) { return step.front() == '['; }
+std::size_t index_of(const std::string& step) { return std::stoul(step.substr(1)); }
+
+/// True if `path` is `prefix` or lies below it.
+bool below(const std::string& path, const std::string& prefix) {
+  if (path.compare(0, prefix.size(), prefix) != 0) return false;
+  return path.size() == prefix.size() || prefix.empty() || path[prefix.size()] == '.' || path[prefix.size()] == '[';
+}
+
+std::string parent_path(const std::string& path) {
+  const std::size_t end = path.find_last_of(".[");
+  return end == std::string::npos ? "" : path.substr(0, end);
+}
+
+std::string text_of(const Place& place, const std::string& path) {
+  std::string text;
+  if (!place.file.empty()) text += place.file + ":";
+  if (place.line > 0) text += std::to_string(place.line) + ":" + std::to_string(place.column) + ":";
+  if (!text.empty()) text += " ";
+  return text + path;
+}
+
+}  // namespace
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> steps;
+  std::string step;
+  const auto finish = [&] {
+    if (!step.empty()) steps.push_back(step);
+    step.clear();
+  };
+  for (const char c : path) {
+    if (c == '.' || c == '[') finish();
+    if (c != '.') step += c;
+    if (c == ']') finish();
+  }
+  finish();
+  for (const std::string& s : steps) {
+    const bool number =
+        s.size() > 2 && s.size() < 8 && s.back() == ']' && s.find_first_not_of("0123456789", 1) == s.size() - 1;
+    if (is_index(s) && !number) throw InputError("'" + path + "' is no key path: '" + s + "' is no index");
+  }
+  return steps;
+}
+
+std::string child_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+std::string child_path(const std::string& path, std::size_t index) { return path + "[" + std::to_string(index) + "]"; }
+
+const Place* ConfigTree::nearest(std::string path) const {
+  for (;;) {
+    const auto found = places_.find(path);
+    if (found != places_.end()) return &found->second;
+    if (path.empty()) return nullptr;
+    path = parent_path(path);
+  }
+}
+
+std::string ConfigTree::where(const std::string& path) const {
+  const Place* place = nearest(path);
+  if (place == nullptr) return path;
+  const auto exact = places_.find(path);
+  if (exact != places_.end()) return text_of(*place, place->path);
+  // The nearest section that was written, then the rest of the path below it.
+  std::string above = path;
+  while (places_.find(above) == places_.end()) above = parent_path(above);
+  const std::string rest = path.substr(above.size() + (above.empty() ? 0 : path[above.size()] == '.' ? 1 : 0));
+  return text_of(*place, rest.front() == '[' ? place->path + rest : child_path(place->path, rest));
+}
+
+std::string ConfigTree::where_key(const std::string& path) const {
+  const auto found = places_.find(path);
+  if (found == places_.end() || found->second.path.empty() || found->second.path.back() != ']') return where(path);
+  Place place = found->second;
+  place.path = parent_path(place.path);
+  return text_of(place, place.path);
+}
+
+void ConfigTree::erase_places(const std::string& path) {
+  auto it = places_.lower_bound(path);
+  while (it != places_.end() && it->first.compare(0, path.size(), path) == 0) {
+    it = below(it->first, path) ? places_.erase(it) : std::next(it);
+  }
+}
+
+void ConfigTree::graft(const std::string& path, const ConfigJson& value, const ConfigTree& from,
+                       const std::string& from_path) {
+  ConfigJson* node = &root;
+  for (const std::string& step : split_path(path)) {
+    if (is_index(step)) {
+      if (!node->is_array() || index_of(step) >= node->size()) {
+        throw InputError(from.where(from_path) + ": there is no '" + path + "' to set: the list has no element " +
+                         step);
+      }
+      node = &(*node)[index_of(step)];
+    } else {
+      if (node->is_null()) *node = ConfigJson::object();
+      if (!node->is_object()) {
+        throw InputError(from.where(from_path) + ": there is no '" + path + "' to set: '" + step +
+                         "' would lie in a plain value");
+      }
+      node = &(*node)[step];
+    }
+  }
+  *node = value;
+  erase_places(path);
+  const Place* place = from.nearest(from_path);
+  if (place != nullptr) places_[path] = {place->file, place->line, place->column, from_path};
+  for (auto it = from.places_.lower_bound(from_path); it != from.places_.end(); ++it) {
+    if (it->first.compare(0, from_path.size(), from_path) != 0) break;
+    if (below(it->first, from_path)) places_[path + it->first.substr(from_path.size())] = it->second;
+  }
+}
+
+void ConfigTree::merge(const ConfigTree& from, const std::string& from_path, const ConfigJson& patch) {
+  const auto merge_at = [&](const auto& self, const std::string& path, const std::string& source,
+                            const ConfigJson& value) -> void {
+    const ConfigJson* old = find(path);
+    // The keys of axes and references are paths themselves, and cases as a whole are what is meant.
+    const bool whole = path == "axes" || path == "reference" || !value.is_object() || value.contains("type");
+    const bool section_by_section = !whole && old != nullptr && old->is_object();
+    if (!section_by_section) return graft(path, value, from, source);
+    for (const auto& [key, inner] : value.items()) self(self, child_path(path, key), child_path(source, key), inner);
+  };
+  for (const auto& [key, value] : patch.items()) merge_at(merge_at, key, child_path(from_path, key), value);
+}
+
+const ConfigJson* ConfigTree::find(const std::string& path) const {
+  const ConfigJson* node = &root;
+  for (const std::string& step : split_path(path)) {
+    if (is_index(step)) {
+      if (!node->is_array() || index_of(step) >= node->size()) return nullptr;
+      node = &(*node)[index_of(step)];
+    } else {
+      if (!node->is_object() || !node->contains(step)) return nullptr;
+      node = &(*node)[step];
+    }
+  }
+  return node;
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,139 @@
+#include "framework/config/document.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "framework/config/json_reader.h"
+#include "framework/config/words.h"
+#include "framework/interfaces/error.h"
+
+namespace dvrlab {
+namespace fs = std::filesystem;
+namespace {
+
+std::string read_text(const std::string& file, const std::string& where) {
+  std::error_code ec;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || fs::is_directory(file, ec))
+    throw InputError(where + "cannot read the config '" + file + "' (does it exist?)");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// A result file's `config` section is a config; its places stay those in the result file.
+ConfigTree config_of(ConfigTree tree) {
+  if (!tree.root.contains("config") || !tree.root.contains("report") || !tree.root["config"].is_object()) return tree;
+  ConfigTree inner;
+  inner.merge(tree, "config", tree.root["config"]);
+  return inner;
+}
+
+class Loader {
+ public:
+  explicit Loader(Problems& problems) : problems_(problems) {}
+
+  ConfigTree read(const std::string& text, const std::string& file, const std::string& folder) {
+    ConfigTree written = read_json(text, file, problems_);
+    problems_.raise();
+    if (!written.root.is_object()) throw InputError(file + ": a config is a section {...}, this is something else");
+    written = config_of(std::move(written));
+    for (const auto& [key, value] : written.root.items()) {
+      if (key.find_first_of(".[") != std::string::npos) {
+        problems_.add(written.where(key) +
+                      ": key paths are possible in axes, reference and --set only; write sections within sections");
+      }
+    }
+    problems_.raise();
+    ConfigTree tree;
+    for (const std::string& name : included(written)) include(tree, name, folder, written.where("include"));
+    written.root.erase("include");
+    tree.merge(written, "", written.root);
+    return tree;
+  }
+
+ private:
+  std::vector<std::string> included(const ConfigTree& tree) {
+    const ConfigJson* include = tree.find("include");
+    if (include == nullptr) return {};
+    const ConfigJson list = include->is_array() ? *include : ConfigJson::array({*include});
+    std::vector<std::string> names;
+    for (const ConfigJson& name : list) {
+      if (!name.is_string()) throw InputError(tree.where("include") + ": must be a file's name or a list of them");
+      names.push_back(name.get<std::string>());
+    }
+    return names;
+  }
+
+  void include(ConfigTree& tree, const std::string& name, const std::string& folder, const std::string& where) {
+    const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : fs::path(folder) / name;
+    const std::string key = fs::weakly_canonical(path).string();
+    if (std::find(open_.begin(), open_.end(), key) != open_.end()) {
+      throw InputError(where + ": '" + name + "' includes itself: " + join_words(open_, " -> ") + " -> " + key);
+    }
+    open_.push_back(key);
+    const std::string text = read_text(path.string(), where + ": ");
+    const ConfigTree fragment = read(text, path.string(), path.parent_path().string());
+    tree.merge(fragment, "", fragment.root);
+    open_.pop_back();
+  }
+
+  Problems& problems_;
+  std::vector<std::string> open_;  // the files that are being read, outermost first
+};
+
+/// True if `key` is `above` or lies below it.
+bool decided_by(const std::string& key, const std::string& above) {
+  return key.compare(0, above.size(), above) == 0 &&
+         (key.size() == above.size() || key[above.size()] == '.' || key[above.size()] == '[');
+}
+
+void override_key(ConfigTree& tree, const std::string& assignment) {
+  const std::size_t equal = assignment.find('=');
+  const std::string place = "--set " + assignment;
+  if (equal == std::string::npos || equal == 0) throw InputError(place + ": must be key.path=value");
+  const std::string key = assignment.substr(0, equal), text = assignment.substr(equal + 1);
+  ConfigTree given;
+  given.root = ConfigJson::parse(text, nullptr, false);
+  if (given.root.is_discarded()) given.root = text;
+  given.set_place("", {"--set", 0, 0, key});
+  for (const char* role : {"permutation", "variant"}) {
+    const std::string axes = std::string("axes.") + role + ".";
+    if (key.compare(0, axes.size(), axes) == 0) {  // an axis key is a path itself: one key, not sections
+      tree.root["axes"][role][key.substr(axes.size())] = given.root;
+      tree.set_place(key, {"--set", 0, 0, key});
+      return;
+    }
+    if (!tree.root.contains("axes") || !tree.root["axes"].is_object() || !tree.root["axes"].contains(role)) continue;
+    for (const auto& [axis, values] : tree.root["axes"][role].items()) {
+      if (decided_by(key, axis))
+        throw InputError(place + ": the axis " + axes + axis + " decides this key; set that, to one value in a list");
+    }
+  }
+  tree.graft(key, given.root, given, "");
+}
+
+}  // namespace
+
+ConfigDocument parse_document(const std::string& text, const std::string& file, const std::string& base_folder,
+                              const std::vector<std::string>& set) {
+  Problems problems;
+  ConfigDocument document;
+  document.file = file;
+  document.tree = Loader(problems).read(text, file, base_folder);
+  for (const std::string& assignment : set) override_key(document.tree, assignment);
+  const auto text_at = [&](const char* key) {
+    const ConfigJson* value = document.tree.find(key);
+    return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+  };
+  document.base_folder =
+      fs::weakly_canonical(fs::absolute(base_folder.empty() ? "." : base_folder) / text_at("base_folder")).string();
+  document.name = text_at("name").empty() ? fs::path(file).stem().string() : text_at("name");
+  return document;
+}
+
+ConfigDocument load_document(const std::string& file, const std::vector<std::string>& set) {
+  return parse_document(read_text(file, ""), file, fs::path(file).parent_path().string(), set);
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,18 @@
+#include "framework/config/problems.h"
+
+#include <algorithm>
+
+#include "framework/config/words.h"
+#include "framework/interfaces/error.h"
+
+namespace dvrlab {
+
+void Problems::add(std::string line) {
+  if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(std::move(line));
+}
+
+void Problems::raise() const {
+  if (!lines_.empty()) throw InputError(join_words(lines_, "\n"));
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,23 @@
+// Collects everything that is wrong with a config, so that all of it is said at once.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dvrlab {
+
+class Problems {
+ public:
+  /// One line: place, path, what was found, what would be right. A line that is there already is not added: the
+  /// same mistake shows up in every case of a product.
+  void add(std::string line);
+  bool empty() const { return lines_.empty(); }
+  std::size_t count() const { return lines_.size(); }
+  /// Throws InputError with all lines, one each, when there are any.
+  void raise() const;
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+}  // namespace dvrlab

@@ -1,0 +1,220 @@
+#include "framework/config/sections.h"
+
+#include <algorithm>
+
+#include "framework/config/check_value.h"
+
+namespace dvrlab {
+namespace {
+
+using Value = nlohmann::json;
+using enum ParameterType;
+
+bool numbers(const Value& v, std::size_t count) {
+  return v.is_array() && v.size() == count &&
+         std::all_of(v.begin(), v.end(), [](const Value& x) { return x.is_number(); });
+}
+
+bool null_or_range(const Value& v) { return v.is_null() || (numbers(v, 2) && v[0].get<double>() < v[1].get<double>()); }
+bool null_or_number(const Value& v) { return v.is_null() || v.is_number(); }
+bool null_or_range_or_equal(const Value& v) {
+  return v.is_null() || (numbers(v, 2) && v[0].get<double>() <= v[1].get<double>());
+}
+bool null_or_bytes(const Value& v) { return v.is_null() || (v.is_number() && v.get<double>() >= 1); }
+bool section(const Value& v) { return v.is_object(); }
+
+bool ray_interval(const Value& v) {
+  if (!v.is_array() || v.size() != 2 || !v[0].is_number() || v[0].get<double>() < 0) return false;
+  return v[1].is_null() || (v[1].is_number() && v[1].get<double>() > v[0].get<double>());
+}
+
+bool image_size(const Value& v) {
+  return v.is_array() && v.size() == 2 && std::all_of(v.begin(), v.end(), [](const Value& x) {
+           return x.is_number_integer() && x.get<double>() >= 1 && x.get<double>() <= 16384;
+         });
+}
+
+bool order(const Value& v) {
+  if (v.is_null()) return true;
+  return v.is_object() && v.size() == 2 && v.contains("by") && v["by"].is_string() && v.contains("is") &&
+         (v["is"] == "increasing" || v["is"] == "decreasing");
+}
+
+constexpr Affects pixels = Affects::pixels, speed = Affects::speed, nothing = Affects::nothing;
+
+const Parameter camera_frame{
+    "frame",
+    choice,
+    "",
+    "\"data\"",
+    "data|world",
+    "Coordinates of positions and lengths: the data's box (origin at its centre, unit = half its diagonal) or world.",
+    pixels};
+const Parameter world_frame{
+    "frame",      choice,
+    "",           "\"world\"",
+    "world|data", "Coordinates: world, or the data's box (origin at its centre, unit = half its diagonal).",
+    pixels};
+const Parameter light_color{"color", vector3, "", "[1,1,1]", "[0,inf)", "Colour of the light.", pixels};
+const Parameter camera_position{"position", vector3, "frame units", nullptr, "", "Where the camera stands.", pixels};
+const Parameter camera_target{"target", vector3, "frame units", "[0,0,0]", "", "What the camera looks at.", pixels};
+const Parameter camera_up{"up", vector3, "", "[0,0,1]", "", "The direction that is up in the image.", pixels};
+
+std::vector<SectionType> declare() {
+  return {
+      {"case",
+       "",
+       "Keys at the top of a config.",
+       {{"name", text, "", "\"\"", "", "Name of the experiment and of its folder; empty: the file's name.", nothing},
+        {"schema", integer, "", "1", "[1,1]", "Version of the config language.", nothing},
+        {"precision", choice, "", "\"strict\"", "strict|fast",
+         "Strict: same bits on every backend and instruction set; fast: contraction is allowed.", pixels},
+        {"seed", integer, "", "0", "[0,4294967295]", "Seed of everything random (jitter).", pixels},
+        {"repeat", integer, "", "1", "[1,1000]", "Number of timed renders of each case.", nothing},
+        {"warmup", integer, "", "0", "[0,1000]", "Number of renders before the timed ones.", nothing},
+        {"base_folder", text, "", "\"\"", "", "Where relative paths start, itself relative to the config's folder.",
+         nothing}}},
+      {"data",
+       "",
+       "Keys that all data plugins share.",
+       {{"nan_policy", choice, "", "\"error\"", "error|replace", "What happens to values that are not finite.", pixels},
+        {"nan_value", number, "physical value", "0", "", "Replacement under nan_policy replace.", pixels},
+        {"optional", boolean, "", "false", "", "Missing data is the verdict 'not supported' instead of an error.",
+         nothing},
+        {"reconstruction", choice, "", "\"exact\"", "exact",
+         "Interpolation between grid points: trilinear in fp32 by our own code.", pixels},
+        {"gradient", choice, "", "\"on_the_fly\"", "on_the_fly",
+         "Where gradients come from: computed at every sample that needs one.", speed}}},
+      {"optical_model",
+       "",
+       "Keys that all optical models share.",
+       {{"tf", choice, "", "\"table\"", "table|nodes",
+         "How kernels read the medium: a table that is linear between entries, or its exact nodes.", pixels},
+        {"tf_entries", integer, "", "4096", "[2,65536]", "Number of entries of the table.", pixels},
+        {"tf_range", json, "physical value", "null", "null (the data's stored range) or [lo, hi] with lo < hi",
+         "Values that the table spans.", pixels},
+        {"interpolation", choice, "", "\"extinction\"", "extinction|opacity",
+         "What is linear between transfer function nodes.", pixels},
+        {"opaque", choice, "", "\"cap\"", "cap", "What a fully opaque node becomes: a capped extinction, said aloud.",
+         pixels},
+        {"length_unit", choice, "", "\"world\"", "world|voxel",
+         "Unit of the model's lengths and extinctions; voxel: the smallest spacing.", pixels}},
+       {{"tf_range", null_or_range}}},
+      {"lights", "head", "A light at the eye: it shines along each ray.", {light_color}},
+      {"lights",
+       "directional",
+       "A light that is infinitely far away.",
+       {world_frame, {"direction", vector3, "", nullptr, "", "Direction towards the light.", pixels}, light_color}},
+      {"lights",
+       "point",
+       "A light at a point, without falloff.",
+       {world_frame, {"position", vector3, "frame units", nullptr, "", "Where the light is.", pixels}, light_color}},
+      {"camera",
+       "perspective",
+       "A pinhole camera.",
+       {camera_frame,
+        camera_position,
+        camera_target,
+        camera_up,
+        {"fov_deg", number, "degree", "30", "(0,180)", "Vertical field of view.", pixels}}},
+      {"camera",
+       "orthographic",
+       "Parallel rays.",
+       {camera_frame,
+        camera_position,
+        camera_target,
+        camera_up,
+        {"height", number, "frame units", "2", "(0,inf)",
+         "Height of the image; 2 in the data frame holds the whole box.", pixels}}},
+      {"camera",
+       "ray",
+       "Every pixel is the same ray.",
+       {camera_frame,
+        {"origin", vector3, "frame units", nullptr, "", "Where the ray starts.", pixels},
+        {"direction", vector3, "", nullptr, "", "Where it goes; any length but 0.", pixels},
+        {"t", json, "frame units", "[0,null]", "[t0, t1] with 0 <= t0 < t1; t1 null: without end",
+         "The part of the ray that is integrated, as arc length from the origin.", pixels}},
+       {{"t", ray_interval}}},
+      {"clip",
+       "",
+       "A plane that keeps the points x with dot(normal, x) <= offset.",
+       {world_frame,
+        {"normal", vector3, "", nullptr, "", "Points to the side that is cut away; any length but 0.", pixels},
+        {"offset", number, "frame units", "0", "", "Keeps dot(normal, x) <= offset, normal scaled to length 1.",
+         pixels}}},
+      {"sampling",
+       "uniform",
+       "Samples at equal distances from the entry point.",
+       {{"step", number, "see unit", "1", "(0,inf)", "Distance between samples.", pixels},
+        {"unit", choice, "", "\"voxel\"", "voxel|world", "Unit of the step; voxel: the smallest spacing.", pixels},
+        {"jitter", number, "step", "0", "[0,1]", "Random part of the first step.", pixels},
+        {"termination", number, "", "1e-4", "[0,1)", "A ray ends when its largest transmittance is at most this.",
+         pixels},
+        {"skipping", boolean, "", "true", "", "Empty space is skipped.", speed}}},
+      {"image",
+       "",
+       "The picture.",
+       {{"size", json, "pixel", "[512,512]", "[width, height], whole numbers in [1,16384]", "Width and height.",
+         pixels},
+        {"background", vector3, "", "[0,0,0]", "[0,inf)", "Radiance behind the data.", pixels},
+        {"space", choice, "", "\"display\"", "display|linear",
+         "Display: colours are composited as given; linear: sRGB colours are decoded before and encoded after.",
+         pixels}},
+       {{"size", image_size}}},
+      {"limits",
+       "",
+       "What a case may use.",
+       {{"memory", json, "byte", "null", "null (75 % of what is available) or a number of at least 1",
+         "A case that needs more is refused.", nothing},
+        {"gpu_buffer", json, "byte", "null", "null (what the device offers) or a number of at least 1",
+         "Largest storage buffer on a GPU; more is split into pages.", speed}},
+       {{"memory", null_or_bytes}, {"gpu_buffer", null_or_bytes}}},
+      {"expect",
+       "",
+       "What an experiment's numbers must satisfy; one of at_least, at_most, between, order.",
+       {{"metric", text, "", nullptr, "", "A value of one of the metrics, e.g. psnr or psnr.r.", nothing},
+        {"against", text, "", nullptr, "", "A reference's name, or variant: the first variant case.", nothing},
+        {"where", json, "", "{}", "a section of key path -> value", "The cases that are meant; empty: all.", nothing},
+        {"at_least", json, "the metric's", "null", "null or a number", "Lower bound.", nothing},
+        {"at_most", json, "the metric's", "null", "null or a number", "Upper bound.", nothing},
+        {"between", json, "the metric's", "null", "null or [lo, hi]", "Both bounds.", nothing},
+        {"order", json, "", "null", "null or {\"by\": key path, \"is\": \"increasing\" or \"decreasing\"}",
+         "How the metric follows an axis.", nothing}},
+       {{"where", section},
+        {"at_least", null_or_number},
+        {"at_most", null_or_number},
+        {"between", null_or_range_or_equal},
+        {"order", order}}},
+  };
+}
+
+}  // namespace
+
+const std::vector<SectionType>& section_types() {
+  static const std::vector<SectionType> types = declare();
+  return types;
+}
+
+const SectionType* find_section_type(const std::string& section, const std::string& type) {
+  for (const SectionType& s : section_types()) {
+    if (section == s.section && type == s.type) return &s;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> types_of(const std::string& section) {
+  std::vector<std::string> types;
+  for (const SectionType& s : section_types()) {
+    if (section == s.section) types.push_back(s.type);
+  }
+  return types;
+}
+
+const std::vector<std::string>& top_sections() {
+  static const std::vector<std::string> names = {
+      "include",  "data",  "optical_model", "estimator", "lights", "illumination", "camera",  "clip",
+      "sampling", "image", "limits",        "backend",   "axes",   "reference",    "metrics", "expect"};
+  return names;
+}
+
+}  // namespace dvrlab
