@@ -22,6 +22,8 @@ struct FrameJob {
   KernelUnit sampler;
   KernelUnit estimator;
   std::string kernel_folder;  // framework/kernel
+  /// Bytes of one storage buffer binding on a GPU, when lower than what the device offers; 0: the device's own.
+  std::uint64_t gpu_buffer_limit = 0;
 };
 
 /// Row 0 is the top row. Seven values per pixel.

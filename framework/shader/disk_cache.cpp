@@ -1,0 +1,75 @@
+#include "framework/shader/disk_cache.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+
+#include "framework/scene/sha256.h"
+
+namespace dvrlab {
+namespace {
+
+constexpr std::size_t hash_characters = 64;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+std::string cache_root() {
+  if (const std::string own = environment("DVRLAB_CACHE"); !own.empty()) return own;
+  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return xdg + "/dvrlab";
+  return environment("HOME") + "/.cache/dvrlab";
+}
+
+std::string hash_of(std::span<const std::byte> content) { return sha256({content}); }
+
+void say_once(const std::string& folder, const std::string& reason) {
+  static std::once_flag said;
+  std::call_once(said, [&] {
+    std::fprintf(stderr, "backend: the cache %s cannot be written (%s); shaders are compiled each time\n", folder.c_str(),
+                 reason.c_str());
+  });
+}
+
+}  // namespace
+
+DiskCache::DiskCache(const std::string& subfolder) : folder_(cache_root() + "/" + subfolder) {}
+
+std::optional<std::vector<std::byte>> DiskCache::read(const std::string& name) const {
+  std::ifstream in(folder_ + "/" + name, std::ios::binary);
+  if (!in) return std::nullopt;
+  const std::string file{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (file.size() < hash_characters) return std::nullopt;
+  const std::span bytes = std::as_bytes(std::span(file)).subspan(hash_characters);
+  if (hash_of(bytes) != file.substr(0, hash_characters)) return std::nullopt;
+  return std::vector<std::byte>(bytes.begin(), bytes.end());
+}
+
+void DiskCache::write(const std::string& name, std::span<const std::byte> content) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) return say_once(folder_, error.message());
+  static int serial = 0;
+  const std::string file = folder_ + "/" + name;
+  const std::string fresh = file + "." + std::to_string(getpid()) + "." + std::to_string(serial++);
+  {
+    std::ofstream out(fresh, std::ios::binary);
+    out << hash_of(content);
+    out.write(reinterpret_cast<const char*>(content.data()), std::streamsize(content.size()));
+    out.close();
+    if (!out) {
+      std::filesystem::remove(fresh, error);
+      return say_once(folder_, "a file could not be written");
+    }
+  }
+  std::filesystem::rename(fresh, file, error);
+  if (error) say_once(folder_, error.message());
+}
+
+}  // namespace dvrlab

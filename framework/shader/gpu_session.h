@@ -1,0 +1,44 @@
+// The session of every GPU backend: composes the frame's shader, keeps buffers on the device between frames,
+// dispatches bands and decodes the output. The device below it is Vulkan's or OpenGL's.
+#pragma once
+
+#include <map>
+
+#include "framework/shader/band_plan.h"
+#include "framework/shader/gpu_device.h"
+
+namespace dvrlab {
+
+class GpuSession final : public BackendSession {
+ public:
+  /// `band_seconds`: the longest time that one dispatch should take.
+  GpuSession(std::unique_ptr<GpuDevice> device, double band_seconds);
+  DeviceInfo device() const override { return device_->info(); }
+  std::uint64_t bytes_needed(const FrameJob& job) const override;
+  void render(const FrameJob& job, FrameResult& result) override;
+
+ private:
+  /// A buffer of the job on the device. Holds the job's memory, so that its address stays taken while we compare it.
+  struct Resident {
+    Buffer source;
+    std::uint64_t page_elements = 0;
+    std::vector<std::unique_ptr<GpuBuffer>> pages;
+  };
+  static bool same(const Resident& resident, const PagedBuffer& wanted);
+  /// Returns whether the program is a new one.
+  bool compile(const ComposedShader& shader);
+  void upload(const ComposedShader& shader);
+  void bind(const ComposedShader& shader);
+  void march(const FrameJob& job, const ComposedShader& shader, FrameResult& result);
+  void write_band(const FrameJob& job, const ComposedShader& shader, int y, int height);
+  int output_rows(int width, int height) const;
+
+  std::unique_ptr<GpuDevice> device_;
+  BandPlan plan_;
+  std::string program_;  // hash of the shader that the device holds
+  std::map<std::string, Resident> resident_;
+  std::vector<std::unique_ptr<GpuBuffer>> uniforms_;  // the band block, then the units' blocks
+  std::unique_ptr<GpuBuffer> output_;
+};
+
+}  // namespace dvrlab
