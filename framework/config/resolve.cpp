@@ -206,7 +206,7 @@ ResolvedCase resolve_case(const ConfigTree& tree, const std::string& base_folder
                           Problems& problems) {
   ConfigTree written = tree;
   if (!written.root.contains("lights")) written.root["lights"] = ConfigJson::parse(R"([{"type": "head"}])");
-  if (written.root.contains("metrics")) {
+  if (written.root.contains("metrics") && written.root["metrics"].is_array()) {
     for (ConfigJson& metric : written.root["metrics"]) {
       if (metric.is_string()) metric = ConfigJson{{"type", metric}};  // a metric's type is short for its section
     }

@@ -1,0 +1,97 @@
+#include "framework/config/expectation.h"
+
+#include "framework/config/check_value.h"
+#include "framework/config/resolve.h"
+
+namespace dvrlab {
+namespace {
+
+std::string number_text(double x) { return nlohmann::json(x).dump(); }
+
+Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& problems) {
+  const SectionType& type = *find_section_type("expect", "");
+  nlohmann::json unused;
+  const std::size_t before = problems.count();
+  const ParameterSet p = resolve_keys(tree, path, {type.keys, type.shapes, {}}, problems, unused);
+  Expectation e;
+  if (problems.count() != before) return e;
+  e.metric = p.text("metric");
+  e.against = p.text("against");
+  for (const auto& [key, value] : p.json("where").items()) e.where.emplace_back(key, value);
+  std::string bound;
+  int bounds = 0;
+  if (!p.is_null("at_least")) {
+    e.at_least = p.json("at_least").get<double>();
+    bound = " >= " + number_text(*e.at_least);
+    ++bounds;
+  }
+  if (!p.is_null("at_most")) {
+    e.at_most = p.json("at_most").get<double>();
+    bound = " <= " + number_text(*e.at_most);
+    ++bounds;
+  }
+  if (!p.is_null("between")) {
+    e.at_least = p.json("between")[0].get<double>();
+    e.at_most = p.json("between")[1].get<double>();
+    bound = " in [" + number_text(*e.at_least) + ", " + number_text(*e.at_most) + "]";
+    ++bounds;
+  }
+  if (!p.is_null("order")) {
+    e.order_by = p.json("order")["by"].get<std::string>();
+    e.increasing = p.json("order")["is"] == "increasing";
+    bound = std::string(e.increasing ? " increasing" : " decreasing") + " with " + e.order_by;
+    ++bounds;
+  }
+  if (bounds != 1) {
+    problems.add(tree.where(path) + ": found " + std::to_string(bounds) +
+                 " bounds; must be exactly one of at_least, at_most, between, order");
+  }
+  e.text = e.metric + " against " + e.against + bound;
+  return e;
+}
+
+}  // namespace
+
+std::vector<Expectation> read_expectations(const ConfigTree& tree, Problems& problems) {
+  std::vector<Expectation> expectations;
+  const ConfigJson* list = tree.find("expect");
+  if (list == nullptr) return expectations;
+  if (!list->is_array()) {
+    problems.add(tree.where("expect") + ": found " + short_text(*list) + "; must be a list [...]");
+    return expectations;
+  }
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string path = child_path("expect", i);
+    if ((*list)[i].is_object()) {
+      expectations.push_back(read_one(tree, path, problems));
+    } else {
+      problems.add(tree.where(path) + ": found " + short_text((*list)[i]) + "; must be a section {...}");
+    }
+  }
+  return expectations;
+}
+
+const nlohmann::json* value_at(const nlohmann::json& resolved_config, const std::string& path) {
+  const nlohmann::json* node = &resolved_config;
+  for (const std::string& step : split_path(path)) {
+    if (step.front() == '[') {
+      const std::size_t index = std::stoul(step.substr(1));
+      if (!node->is_array() || index >= node->size()) return nullptr;
+      node = &(*node)[index];
+    } else {
+      if (!node->is_object() || !node->contains(step)) return nullptr;
+      node = &(*node)[step];
+    }
+  }
+  return node;
+}
+
+bool applies(const Expectation& e, const nlohmann::json& resolved_config) {
+  for (const auto& [path, wanted] : e.where) {
+    const nlohmann::json* found = value_at(resolved_config, path);
+    if (found == nullptr || *found != wanted) return false;
+  }
+  return true;
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,34 @@
+// What an experiment's numbers must satisfy: the config's `expect`.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/config/config_tree.h"
+#include "framework/config/problems.h"
+
+namespace dvrlab {
+
+struct Expectation {
+  std::string metric;                                         // "psnr", "psnr.r"
+  std::string against;                                        // a reference's name, or "variant"
+  std::vector<std::pair<std::string, nlohmann::json>> where;  // key path -> value that a case must have
+  std::optional<double> at_least, at_most;                    // `between` sets both
+  std::string order_by;                                       // key path; "" when there is no order
+  bool increasing = false;
+  std::string text;  // "psnr against truth >= 40": for messages and result files
+};
+
+/// Everything wrong is added to `problems`.
+std::vector<Expectation> read_expectations(const ConfigTree& tree, Problems& problems);
+
+/// True if the case with this resolved config is meant.
+bool applies(const Expectation& e, const nlohmann::json& resolved_config);
+
+/// The value at a key path of a resolved config; nullptr when there is none.
+const nlohmann::json* value_at(const nlohmann::json& resolved_config, const std::string& path);
+
+}  // namespace dvrlab
