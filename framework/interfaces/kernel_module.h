@@ -12,7 +12,7 @@
 
 enum { DVR_F32 = 0, DVR_I32 = 1, DVR_VEC4 = 2 };
 enum { DVR_ELEMENT_U8, DVR_ELEMENT_I8, DVR_ELEMENT_U16, DVR_ELEMENT_I16, DVR_ELEMENT_F32, DVR_ELEMENT_VEC4, DVR_ELEMENT_I32 };
-enum { DVR_RGB = 1, DVR_FULL = 2 }; /* bits that choose the compiled variant */
+enum { DVR_FEATURE_RGB = 1, DVR_FEATURE_FULL = 2 }; /* bits that choose the compiled variant */
 
 typedef struct dvr_uniform {
   const char* name;
@@ -42,13 +42,13 @@ typedef struct dvr_packet {
   float grid_d[3][DVR_MAX_WIDTH];               /* sampler coordinates per world length */
   float world_o[3][DVR_MAX_WIDTH];              /* world coordinates relative to the box centre */
   float world_d[3][DVR_MAX_WIDTH];              /* unit length */
-  float t0[DVR_MAX_WIDTH], t1[DVR_MAX_WIDTH];   /* interval that the camera allows, before start() */
+  int x[DVR_MAX_WIDTH], y[DVR_MAX_WIDTH];       /* pixel */
   float length[DVR_MAX_WIDTH];                  /* L: entry to exit */
   float offset[DVR_MAX_WIDTH];                  /* jitter: (1 - xi) * step, 0 without */
   int n[DVR_MAX_WIDTH];                         /* number of segments; set to i when the ray has ended early */
   int i[DVR_MAX_WIDTH];                         /* next segment */
   int skipped[DVR_MAX_WIDTH];                   /* segments that were skipped as empty */
-  int carried;                                  /* rows at the front of the chunk that still hold (sampler's own) */
+  int carried;                                  /* 1: the last chunk's final rows serve the next (sampler's own) */
   float color[3][DVR_MAX_WIDTH];                /* accumulated radiance */
   float trans[3][DVR_MAX_WIDTH];                /* accumulated transmittance */
   int samples[DVR_MAX_WIDTH];                   /* segments that were composited */

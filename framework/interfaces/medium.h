@@ -63,6 +63,7 @@ struct Medium {
 struct ModelContext {
   double length_unit;               // world units per unit of the config's lengths
   bool opacity_interpolation;       // `interpolation`: false = "extinction", true = "opacity"
+  bool linear_color;                // image.space "linear": transfer function colours are decoded from sRGB
   double value_min, value_max;      // the data's physical range
   std::vector<std::string>* notes;  // what was capped or refined, said aloud
 };

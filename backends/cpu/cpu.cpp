@@ -1,0 +1,57 @@
+// The cpu backend: kernel modules of one instruction set, chosen at run time, over image tiles on all cores.
+#include "backends/cpu/isa.h"
+#include "backends/cpu/tiles.h"
+#include "framework/interfaces/error.h"
+#include "framework/interfaces/plugin.h"
+
+namespace {
+using namespace dvrlab;
+
+const Parameter parameters[] = {
+    {"isa", ParameterType::choice, "", "\"auto\"", "auto|scalar|sse4.2|avx2|avx512",
+     "Instruction set of the kernel modules; auto takes the widest that the processor has.", Affects::speed, "",
+     "\"scalar\""},
+    {"threads", ParameterType::integer, "", "0", "[0,1024]", "Worker threads; 0 takes one per hardware thread.",
+     Affects::speed, "", "1"},
+    {"tile", ParameterType::integer, "pixel", "16", "[4,1024]",
+     "Side of the square image tiles that threads work on.", Affects::speed, "", "64"},
+};
+
+class CpuSession : public BackendSession {
+ public:
+  CpuSession(const ParameterSet& p, std::string folder)
+      : isa_(cpu::choose_isa(p.text("isa"))), march_folder_(std::move(folder)) {
+    options_.threads = static_cast<int>(p.integer("threads"));
+    options_.tile = static_cast<int>(p.integer("tile"));
+  }
+  DeviceInfo device() const override {
+    return {cpu::processor_name(), "kernel modules " + isa_, "C++ SIMD",
+            "isa " + isa_ + ", " + std::to_string(cpu::thread_count(options_.threads)) + " threads, tile " +
+                std::to_string(options_.tile)};
+  }
+  // The images; modules work in place on the job's buffers.
+  std::uint64_t bytes_needed(const FrameJob& job) const override {
+    return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * sizeof(float);
+  }
+  void render(const FrameJob& job, FrameResult& result) override {
+    if (job.fast) throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
+    cpu::render_tiles(job, isa_, march_folder_, modules_, options_, result);
+  }
+
+ private:
+  std::string isa_, march_folder_;
+  cpu::TileOptions options_;
+  cpu::ModuleCache modules_;
+};
+
+class Cpu : public BackendPlugin {
+ public:
+  std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string& folder) const override {
+    return std::make_unique<CpuSession>(p, folder);
+  }
+};
+
+}  // namespace
+
+DVRLAB_PLUGIN("backend", "cpu", "1.0", Cpu, parameters,
+              "SIMD kernel modules (scalar, SSE4.2, AVX2, AVX-512) over tiles with oneTBB", "")

@@ -1,0 +1,18 @@
+// Instruction sets of this processor.
+#pragma once
+
+#include <string>
+
+namespace dvrlab::cpu {
+
+/// "auto" -> the widest usable set; another name is returned as it is. Throws NotSupported when the processor
+/// lacks it.
+std::string choose_isa(const std::string& wanted);
+
+/// The processor's own name, e.g. "AMD EPYC 9R14".
+std::string processor_name();
+
+/// 0 -> the hardware threads that this process may use.
+int thread_count(int wanted);
+
+}  // namespace dvrlab::cpu

@@ -1,0 +1,73 @@
+#include "backends/cpu/modules.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "framework/interfaces/error.h"
+
+namespace dvrlab::cpu {
+
+const dvr_kernel_module* ModuleCache::get(const std::string& folder, const std::string& name, const std::string& isa) {
+  const std::string file = folder + "/" + name + "." + isa + ".so";
+  for (const auto& [known, module] : modules_)
+    if (known == file) return module;
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw InputError("backend cpu: kernel module cannot be loaded: " + std::string(dlerror()));
+  using Entry = const dvr_kernel_module* (*)();
+  const auto entry = reinterpret_cast<Entry>(dlsym(library, "dvrlab_kernel_module"));
+  if (entry == nullptr) throw InputError("backend cpu: " + file + " exports no dvrlab_kernel_module");
+  const dvr_kernel_module* module = entry();
+  if (module->abi != DVR_KERNEL_ABI)
+    throw InputError("backend cpu: " + file + " has kernel ABI " + std::to_string(module->abi) + ", this dvrlab has " +
+                     std::to_string(DVR_KERNEL_ABI) + "; build the plugin again");
+  modules_.emplace_back(file, module);
+  return module;
+}
+
+namespace {
+int element_code(Element e) {
+  switch (e) {
+    case Element::u8: return DVR_ELEMENT_U8;
+    case Element::i8: return DVR_ELEMENT_I8;
+    case Element::u16: return DVR_ELEMENT_U16;
+    case Element::i16: return DVR_ELEMENT_I16;
+    case Element::f32: return DVR_ELEMENT_F32;
+    case Element::vec4: return DVR_ELEMENT_VEC4;
+    case Element::i32: return DVR_ELEMENT_I32;
+  }
+  return DVR_ELEMENT_F32;
+}
+}  // namespace
+
+void Bindings::add(const KernelUnit& unit) {
+  for (const Uniform& u : unit.uniforms) {
+    dvr_uniform c{};
+    c.name = u.name.c_str();
+    c.type = u.type == Uniform::Type::f32 ? DVR_F32 : u.type == Uniform::Type::i32 ? DVR_I32 : DVR_VEC4;
+    for (std::size_t k = 0; k < 4; ++k) c.f[k] = u.f[k];
+    c.i = u.i;
+    uniforms_.push_back(c);
+  }
+  for (const Buffer& b : unit.buffers) buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count});
+}
+
+dvr_bindings Bindings::view() const {
+  return {uniforms_.data(), static_cast<int>(uniforms_.size()), buffers_.data(), static_cast<int>(buffers_.size())};
+}
+
+void ModuleFrame::Free::operator()(void* p) const { std::free(p); }
+
+ModuleFrame::ModuleFrame(const dvr_kernel_module* module, const dvr_bindings& bindings, int features) {
+  const std::size_t align = module->frame_align < 64 ? 64 : module->frame_align;
+  const std::size_t bytes = (module->frame_bytes + align - 1) / align * align;
+  state_.reset(std::aligned_alloc(align, bytes));
+  if (!state_) throw std::bad_alloc();
+  char missing[128] = "";
+  if (module->init(state_.get(), &bindings, features, &calls_, missing) != 0)
+    throw InputError(std::string("backend cpu: the kernel of ") + module->kind + " " + module->name + " reads \"" +
+                     missing + "\", which the job does not provide (or with another type)");
+}
+
+}  // namespace dvrlab::cpu

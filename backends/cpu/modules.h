@@ -1,0 +1,51 @@
+// Kernel modules: loading and per-frame state.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/interfaces/kernel_module.h"
+#include "framework/interfaces/kernel_unit.h"
+
+namespace dvrlab::cpu {
+
+/// Opens each module library once; libraries are never unloaded.
+class ModuleCache {
+ public:
+  /// <folder>/<name>.<isa>.so. Throws InputError when it is missing, not loadable or of another kernel ABI.
+  const dvr_kernel_module* get(const std::string& folder, const std::string& name, const std::string& isa);
+
+ private:
+  std::vector<std::pair<std::string, const dvr_kernel_module*>> modules_;
+};
+
+/// The uniforms and buffers of a job as the modules' C structures. Refers to the job's memory.
+class Bindings {
+ public:
+  void add(const KernelUnit& unit);
+  dvr_bindings view() const;
+
+ private:
+  std::vector<dvr_uniform> uniforms_;
+  std::vector<dvr_buffer> buffers_;
+};
+
+/// A module's state for one frame.
+class ModuleFrame {
+ public:
+  /// Throws InputError naming the uniform or buffer that the kernel reads and the job lacks.
+  ModuleFrame(const dvr_kernel_module* module, const dvr_bindings& bindings, int features);
+  const void* state() const { return state_.get(); }
+  const dvr_calls& calls() const { return calls_; }
+
+ private:
+  struct Free {
+    void operator()(void* p) const;
+  };
+  std::unique_ptr<void, Free> state_;
+  dvr_calls calls_{};
+};
+
+}  // namespace dvrlab::cpu

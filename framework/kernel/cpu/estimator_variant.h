@@ -1,0 +1,47 @@
+// One variant of the estimator module (not guarded).
+struct DVR_STRUCT : kernel_base {
+  using kernel_base::kernel_base;
+#include "framework/kernel/cpu/spectral.h"
+#include "framework/kernel/math.kernel"
+#include "framework/kernel/medium.kernel"
+#include "framework/kernel/shading.kernel"
+#include "framework/kernel/segment.kernel"
+#include DVR_KERNEL_FILE
+
+  // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
+  KFN void integrate(const dvr_packet* p, dvr_chunk* c) {
+    segment q;
+    q.world_o = {load(p->world_o[0]), load(p->world_o[1]), load(p->world_o[2])};
+    q.world_d = {load(p->world_d[0]), load(p->world_d[1]), load(p->world_d[2])};
+    q.inv_L = rcp(rmax(load(p->length), R(1e-30f)));
+    const int n = c->n;
+    for (int k = 0; k < n; ++k) {
+      const int a = k * W, b = a + W, e = b + W;
+      q.len = load(c->len + a);
+      q.s0 = q.s_prev = load(c->s + a);
+      q.s1 = q.s = load(c->s + b);
+      q.s_next = load(c->s + e);
+      q.v0 = q.v_prev = load(c->v + a);
+      q.v1 = q.v = load(c->v + b);
+      q.v_next = load(c->v + e);
+      q.g0 = {load(c->g[0] + a), load(c->g[1] + a), load(c->g[2] + a)};
+      q.g1 = q.g = {load(c->g[0] + b), load(c->g[1] + b), load(c->g[2] + b)};
+      vec3r color;
+      spectral t;
+      segment_kernel(q, color, t);
+      store(c->c[0] + a, color.x);
+      store(c->c[1] + a, color.y);
+      store(c->c[2] + a, color.z);
+#if DVR_RGB
+      store(c->t[0] + a, t.x);
+      store(c->t[1] + a, t.y);
+      store(c->t[2] + a, t.z);
+#else
+      store(c->t[0] + a, t);
+#endif
+    }
+  }
+};
+#undef DVR_STRUCT
+#undef DVR_RGB
+#undef DVR_FULL

@@ -1,0 +1,92 @@
+// The kernel language as C++. A kernel text is included inside a struct derived from kernel_base, so that its
+// uniforms and tables are members and its functions see them as GLSL's functions see globals.
+#pragma once
+
+#include "framework/interfaces/kernel_module.h"
+#include "framework/kernel/cpu/fetch.h"
+
+namespace dvr {
+
+struct vec3r {
+  real x, y, z;
+};
+DVR_INLINE vec3r v3(real x, real y, real z) { return {x, y, z}; }
+DVR_INLINE vec3r operator+(vec3r a, vec3r b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+DVR_INLINE vec3r operator-(vec3r a, vec3r b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DVR_INLINE vec3r operator*(vec3r a, vec3r b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+DVR_INLINE vec3r operator*(vec3r a, real b) { return {a.x * b, a.y * b, a.z * b}; }
+DVR_INLINE vec3r operator*(real a, vec3r b) { return b * a; }
+DVR_INLINE vec3r operator-(vec3r a) { return {-a.x, -a.y, -a.z}; }
+DVR_INLINE vec3r select(mask m, vec3r a, vec3r b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+DVR_INLINE vec3r xyz(vec4r a) { return {a.x, a.y, a.z}; }
+
+struct uvec4 {
+  float x, y, z, w;
+};
+DVR_INLINE vec3r V3(uvec4 u) { return {R(u.x), R(u.y), R(u.z)}; }
+
+/// Finds uniforms and buffers by name while the struct is constructed, once per frame. A missing name is noted,
+/// and init() reports it: nothing is read from a kernel that is not complete.
+struct kernel_base {
+  const dvr_bindings* bindings;
+  char* missing;
+  kernel_base(const dvr_bindings* b, char* m) : bindings(b), missing(m) {}
+  void note(const char* name) {
+    if (missing[0] == 0) {
+      strncpy(missing, name, 127);
+      missing[127] = 0;
+    }
+  }
+  const dvr_uniform* uniform(const char* name, int type) {
+    for (int k = 0; k < bindings->uniform_count; ++k) {
+      const dvr_uniform* u = bindings->uniforms + k;
+      if (strcmp(u->name, name) == 0 && u->type == type) return u;
+    }
+    note(name);
+    return nullptr;
+  }
+  float uniform_f(const char* name) {
+    const dvr_uniform* u = uniform(name, DVR_F32);
+    return u ? u->f[0] : 0.0f;
+  }
+  int uniform_i(const char* name) {
+    const dvr_uniform* u = uniform(name, DVR_I32);
+    return u ? u->i : 0;
+  }
+  uvec4 uniform_v(const char* name) {
+    const dvr_uniform* u = uniform(name, DVR_VEC4);
+    return u ? uvec4{u->f[0], u->f[1], u->f[2], u->f[3]} : uvec4{};
+  }
+  template <class T>
+  const T* buffer(const char* name, int element) {
+    for (int k = 0; k < bindings->buffer_count; ++k) {
+      const dvr_buffer* b = bindings->buffers + k;
+      if (strcmp(b->name, name) == 0 && b->element == element) return static_cast<const T*>(b->data);
+    }
+    note(name);
+    return nullptr;
+  }
+};
+
+/// A copy of the frame's state on the stack of the call: the compiler keeps what is used in registers, since no
+/// store to a chunk can alias it.
+template <class State>
+DVR_INLINE State local(const void* frame) {
+  return *static_cast<const State*>(frame);
+}
+
+}  // namespace dvr
+
+// ---- words ----------------------------------------------------------------------------------------------------
+#define KFN DVR_INLINE
+#define OUT(type) type&
+#define INOUT(type) type&
+#define UNIFORM_F(name) float name = this->uniform_f(#name);
+#define UNIFORM_I(name) int name = this->uniform_i(#name);
+#define UNIFORM_V(name) dvr::uvec4 name = this->uniform_v(#name);
+#define TABLE4(name) dvr::table4 name = {this->buffer<float>(#name, DVR_ELEMENT_VEC4)};
+#define TABLEI(name) dvr::tablei name = {this->buffer<int32_t>(#name, DVR_ELEMENT_I32)};
+#define BYTES(name) dvr::bytes8 name = {this->buffer<uint8_t>(#name, DVR_ELEMENT_U8)};
+// VOXELS(name) is defined by the sampler module: the voxel type is the module's variant.

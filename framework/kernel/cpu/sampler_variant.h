@@ -1,0 +1,126 @@
+// One voxel type of the sampler module (not guarded: included once per type).
+struct DVR_STRUCT : kernel_base {
+  using kernel_base::kernel_base;
+#define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};
+#include "framework/kernel/cpu/spectral.h"
+#include "framework/kernel/math.kernel"
+#include "framework/kernel/medium.kernel"
+#include "framework/kernel/ray.kernel"
+#include "framework/kernel/steps.kernel"
+#include DVR_KERNEL_FILE
+  UNIFORM_I(frame_samples_ends)
+  UNIFORM_I(frame_neighbours)
+  UNIFORM_I(frame_gradient)
+#undef VOXELS
+
+  KFN static vec3r load3(const float (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
+  KFN static void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
+    store(p[0], a.x);
+    store(p[1], a.y);
+    store(p[2], a.z);
+  }
+
+  // Moves the packet's origin to the entry point and counts its segments.
+  KFN void start(dvr_packet* p) {
+    ray r;
+    r.grid_o = load3(p->grid_o);
+    r.grid_d = load3(p->grid_d);
+    r.world_o = load3(p->world_o);
+    r.world_d = load3(p->world_d);
+    const span s = clip_ray(r);
+    const real L = s.t1 - s.t0;
+    store3(p->grid_o, r.grid_o + r.grid_d * s.t0);
+    store3(p->world_o, r.world_o + r.world_d * s.t0);
+    real offset = R(0.0f);
+    if (frame_jitter_on != 0) offset = jitter_offset(load(p->x), load(p->y));
+    const mask hit = L > R(0.0f);
+    store(p->n, select(hit, steps_count(select(hit, L, R(1.0f)), offset), I(0)));
+    store(p->i, I(0));
+    store(p->skipped, I(0));
+    store(p->length, select(hit, L, R(0.0f)));
+    store(p->offset, offset);
+    p->carried = 0;
+  }
+
+  KFN inti leap(inti i, inti n, real L, real offset, vec3r o, vec3r d, dvr_packet* p) {
+    for (;;) {
+      const inti next = steps_leap(i, n, L, offset, o, d);
+      const mask moved = next > i;
+      if (!any_lane(moved)) return i;
+      store(p->skipped, load(p->skipped) + (next - i));
+      i = next;
+      p->carried = 0;
+    }
+  }
+
+  KFN int fill(dvr_packet* p, dvr_chunk* c) {
+    const inti n = load(p->n);
+    inti i = load(p->i);
+    const real L = load(p->length), offset = load(p->offset);
+    const vec3r o = load3(p->grid_o), d = load3(p->grid_d);
+    if (frame_skip != 0) i = leap(i, n, L, offset, o, d, p);
+    int steps = max_lane(n - i);
+    if (steps <= 0) return 0;
+    steps = steps < DVR_CHUNK ? steps : DVR_CHUNK;
+    // centre: row r is the centre of segment i+r-1; ends: row r is the front end of segment i+r.
+    const bool ends = frame_samples_ends != 0, around = frame_neighbours != 0;
+    const int first = ends || around ? 0 : 1, last = ends ? steps : around ? steps + 1 : steps;
+    int row = first;
+    if (p->carried && (ends || around)) {  // what the last chunk sampled already
+      const int keep = ends ? 1 : 2, from = ends ? c->n : c->n;
+      for (int k = 0; k < keep; ++k) {
+        store(c->s + k * W, load(c->s + (from + k) * W));
+        store(c->v + k * W, load(c->v + (from + k) * W));
+      }
+      row = keep;
+    }
+    if (ends) {
+      for (; row <= last; ++row) sample(c, row, steps_end(i + I(row), n, L, offset), o, d);
+    } else {
+      for (; row <= last; ++row) sample(c, row, steps_centre(i + I(row - 1), n, L, offset), o, d);
+    }
+    for (int k = 0; k < steps; ++k) {
+      const inti j = i + I(k);
+      store(c->len + k * W, select(j < n, steps_length(j, n, L, offset), R(0.0f)));
+    }
+    if (frame_gradient != 0) {
+      if (ends) {
+        gradients_at_ends(c, steps, o, d);
+      } else {
+        for (int k = 1; k <= steps; ++k) {
+          const real v = load(c->v + k * W);
+          if (any_lane(medium_shaded(v, v) && load(c->len + (k - 1) * W) > R(0.0f)))
+            gradient(c, k, o, d);
+        }
+      }
+    }
+    store(p->i, i + I(steps));
+    p->carried = 1;
+    c->n = steps;
+    return steps;
+  }
+
+  KFN void sample(dvr_chunk* c, int row, real s, vec3r o, vec3r d) {
+    store(c->s + row * W, s);
+    store(c->v + row * W, sample_value(o + d * s));
+  }
+  KFN void gradient(dvr_chunk* c, int row, vec3r o, vec3r d) {
+    const vec3r g = sample_gradient(o + d * load(c->s + row * W));
+    store(c->g[0] + row * W, g.x);
+    store(c->g[1] + row * W, g.y);
+    store(c->g[2] + row * W, g.z);
+  }
+  KFN void gradients_at_ends(dvr_chunk* c, int steps, vec3r o, vec3r d) {
+    bool done = false;  // the gradient of row k is there
+    for (int k = 0; k < steps; ++k) {
+      const real v0 = load(c->v + k * W), v1 = load(c->v + (k + 1) * W);
+      const bool wanted = any_lane(medium_shaded(v0, v1) && load(c->len + k * W) > R(0.0f));
+      if (wanted && !done) gradient(c, k, o, d);
+      if (wanted) gradient(c, k + 1, o, d);
+      done = wanted;
+    }
+  }
+};
+#undef DVR_STRUCT
+#undef DVR_VOXEL
+#undef DVR_VOXEL_ELEMENT

@@ -1,0 +1,134 @@
+#include "framework/scene/medium_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/scene/buffers.h"
+
+namespace dvrlab {
+
+namespace {
+
+using Columns = std::array<double, medium_columns>;
+using Group = std::array<double, 4>;
+
+double col(const Columns& x, Term t, int c) { return x[std::size_t(column(t, c))]; }
+
+// The groups of an entry, in the order of medium.kernel. Linear in the columns, so it serves values and polynomials.
+std::vector<Group> groups_of(const Columns& x, const MediumTableOptions& o, bool emits, bool surfaces) {
+  const auto rgb = [&](Term t, double w) { return Group{col(x, t, 0), col(x, t, 1), col(x, t, 2), w}; };
+  if (o.full) {
+    std::vector<Group> g = {rgb(Term::tau_l, col(x, Term::tau_s, 0)), rgb(Term::S_l, col(x, Term::tau_s, 1)),
+                            rgb(Term::W_l, col(x, Term::tau_s, 2))};
+    if (emits) g.insert(g.end(), {rgb(Term::E, 0), rgb(Term::P, 0)});
+    if (surfaces) g.insert(g.end(), {rgb(Term::S_s, 0), rgb(Term::W_s, 0)});
+    return g;
+  }
+  Vector3 source;
+  for (int c = 0; c < 3; ++c)
+    source[std::size_t(c)] = col(x, Term::E, c) + col(x, Term::P, c) + (o.fold_shaded ? col(x, Term::S_l, c) : 0.0);
+  if (o.rgb) return {rgb(Term::tau_l, 0), Group{source[0], source[1], source[2], 0}};
+  return {Group{col(x, Term::tau_l, 0), source[0], source[1], source[2]}};
+}
+
+std::vector<float> table_values(const Medium& m, const MediumTableOptions& o, bool emits, bool surfaces) {
+  std::vector<std::vector<Group>> entry;
+  for (int e = 0; e < o.entries; ++e)
+    entry.push_back(groups_of(m.at(o.lo + (o.hi - o.lo) * e / (o.entries - 1)), o, emits, surfaces));
+  std::vector<float> r;
+  for (std::size_t e = 0; e < entry.size(); ++e) {
+    const auto& next = entry[std::min(e + 1, entry.size() - 1)];
+    for (std::size_t g = 0; g < entry[e].size(); ++g) {
+      for (double x : entry[e][g]) r.push_back(float(x));
+      for (std::size_t k = 0; k < 4; ++k) r.push_back(float(next[g][k]) - float(entry[e][g][k]));
+    }
+  }
+  return r;
+}
+
+void add_nodes(const Medium& m, const MediumTableOptions& o, bool emits, bool surfaces, KernelUnit& unit) {
+  std::size_t padded = 1;
+  while (padded < m.interval.size()) padded *= 2;
+  std::vector<float> node, poly;
+  for (const MediumInterval& i : m.interval) {
+    node.insert(node.end(), {float(i.v0), float(1.0 / (i.v1 - i.v0)), 0.0f, 0.0f});
+    std::array<std::vector<Group>, 3> power;
+    for (std::size_t p = 0; p < 3; ++p) {
+      Columns x;
+      for (std::size_t c = 0; c < medium_columns; ++c) x[c] = i.c[c][p];
+      power[p] = groups_of(x, o, emits, surfaces);
+    }
+    for (std::size_t g = 0; g < power[0].size(); ++g)
+      for (const auto& p : power)
+        for (double x : p[g]) poly.push_back(float(x));
+  }
+  // The search compares with v0 only: the first interval reaches to the left of every value, padding is out of reach
+  // (the outer intervals are constant, so their coordinate does not matter).
+  node[0] = std::numeric_limits<float>::lowest();
+  node[1] = 0.0f;
+  for (std::size_t k = m.interval.size(); k < padded; ++k)
+    node.insert(node.end(), {std::numeric_limits<float>::max(), 0.0f, 0.0f, 0.0f});
+  unit.uniforms.push_back(Uniform::constant_integer("medium_node_step", int(padded / 2)));
+  unit.buffers.push_back(vec4_buffer("medium_node", std::move(node)));
+  unit.buffers.push_back(vec4_buffer("medium_node_poly", std::move(poly)));
+}
+
+// Bin b covers [edge(b), edge(b+1)], the outermost bins everything beyond.
+template <class Test>
+std::vector<int> prefix_sums(const MediumTableOptions& o, Test contributes) {
+  std::vector<int> sum{0};
+  const double inf = std::numeric_limits<double>::infinity();
+  for (int b = 0; b + 1 < o.entries; ++b) {
+    const double a = b == 0 ? -inf : o.lo + (o.hi - o.lo) * b / (o.entries - 1);
+    const double c = b + 2 == o.entries ? inf : o.lo + (o.hi - o.lo) * (b + 1) / (o.entries - 1);
+    sum.push_back(sum.back() + (contributes(a, c) ? 1 : 0));
+  }
+  sum.push_back(sum.back());  // the kernel may ask one bin beyond the last
+  sum.push_back(sum.back());
+  return sum;
+}
+
+}  // namespace
+
+void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& unit) {
+  const Terms terms = medium.terms();
+  const bool emits = o.full && (terms.has(Term::E) || terms.has(Term::P));
+  const bool surfaces = o.full && (terms.has(Term::tau_s) || terms.has(Term::S_s) || terms.has(Term::W_s));
+  const int groups = int(groups_of({}, o, emits, surfaces).size());
+  unit.uniforms.insert(unit.uniforms.end(),
+                       {Uniform::constant_integer("medium_use_nodes", o.nodes ? 1 : 0),
+                        Uniform::constant_integer("medium_groups", groups),
+                        Uniform::constant_integer("medium_emits", emits ? 1 : 0),
+                        Uniform::constant_integer("medium_surfaces", surfaces ? 1 : 0), Uniform::real("medium_lo", o.lo),
+                        Uniform::real("medium_scale", (o.entries - 1) / (o.hi - o.lo)),
+                        Uniform::real("medium_last", o.entries - 1)});
+  // The representation that is not in use keeps its binding with one empty entry.
+  if (o.nodes) {
+    unit.buffers.push_back(vec4_buffer("medium_table", {}));
+    add_nodes(medium, o, emits, surfaces, unit);
+  } else {
+    unit.buffers.push_back(vec4_buffer("medium_table", table_values(medium, o, emits, surfaces)));
+    unit.uniforms.push_back(Uniform::constant_integer("medium_node_step", 0));
+    unit.buffers.push_back(vec4_buffer("medium_node", {}));
+    unit.buffers.push_back(vec4_buffer("medium_node_poly", {}));
+  }
+  std::vector<int> sum = prefix_sums(o, [&](double a, double b) { return !medium.unshaded(a, b); });
+  const std::uint64_t count = sum.size();
+  unit.buffers.push_back(make_buffer("medium_shaded_sum", Element::i32, std::move(sum), count));
+}
+
+OccupiedBins::OccupiedBins(const Medium& medium, const MediumTableOptions& o)
+    : lo_(o.lo),
+      scale_((o.entries - 1) / (o.hi - o.lo)),
+      sum_(prefix_sums(o, [&](double a, double b) { return !medium.empty(a, b); })) {}
+
+bool OccupiedBins::empty(double a, double b) const {
+  const double bins = double(sum_.size()) - 3.0;
+  const auto bin = [&](double v, double margin) {
+    return std::clamp(std::floor((v - lo_) * scale_) + margin, 0.0, bins - 1.0);
+  };
+  return sum_[std::size_t(bin(b, 1.0)) + 1] == sum_[std::size_t(bin(a, -1.0))];
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,35 @@
+// The medium as the kernels read it: table or nodes (framework/kernel/medium.kernel has the layout).
+#pragma once
+
+#include <vector>
+
+#include "framework/interfaces/kernel_unit.h"
+#include "framework/interfaces/medium.h"
+
+namespace dvrlab {
+
+struct MediumTableOptions {
+  bool nodes = false;  // tf: "nodes"
+  int entries = 4096;
+  double lo = 0, hi = 1;  // stored values of the first and last entry
+  bool rgb = false, full = false;
+  bool fold_shaded = false;  // plain: the unlit medium's source is E + P + S_l (no local shading: k = 1, b = 0)
+};
+
+/// Adds the uniforms medium_* and the buffers medium_table, medium_node, medium_node_poly, medium_shaded_sum.
+void add_medium(const Medium& medium, const MediumTableOptions& options, KernelUnit& unit);
+
+/// Which table bins can contribute anything: the macrocells' question. Bin b lies between entries b and b+1; the
+/// first and last bin include everything outside.
+class OccupiedBins {
+ public:
+  OccupiedBins(const Medium& medium, const MediumTableOptions& options);
+  /// True if no value of the closed interval [a, b] contributes, with one bin of margin.
+  bool empty(double a, double b) const;
+
+ private:
+  double lo_, scale_;
+  std::vector<int> sum_;  // prefix sums
+};
+
+}  // namespace dvrlab

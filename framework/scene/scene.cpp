@@ -1,0 +1,185 @@
+#include "framework/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "framework/interfaces/error.h"
+#include "framework/interfaces/estimator.h"
+#include "framework/interfaces/transfer_function.h"
+#include "framework/scene/buffers.h"
+#include "framework/scene/camera.h"
+#include "framework/scene/lighting.h"
+#include "framework/scene/macrocells.h"
+#include "framework/scene/medium_table.h"
+
+namespace dvrlab {
+
+namespace {
+
+LoadContext load_context(const ResolvedCase& c) {
+  return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
+}
+
+// The medium in physical values; `voxel` is the data's smallest spacing in world units.
+Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
+                    std::vector<std::string>& notes) {
+  const ParameterSet& p = c.optical_model.parameters;
+  ModelContext context;
+  context.length_unit = p.text("length_unit") == "voxel" ? voxel : 1.0;
+  context.opacity_interpolation = p.text("interpolation") == "opacity";
+  context.linear_color = c.image.text("space") == "linear";
+  context.value_min = value_min;
+  context.value_max = value_max;
+  context.notes = &notes;
+  return registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
+}
+
+void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d) {
+  Terms missing;
+  missing.bits = medium.terms().bits & ~d.handles;
+  if (missing.bits != 0)
+    throw InputError("estimator.type: estimator \"" + c.estimator.type + "\" cannot integrate the terms " +
+                     missing.text() + " of optical model \"" + c.optical_model.type +
+                     "\"; choose another estimator (dvrlab list estimator) or remove these terms");
+}
+
+MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
+  const ParameterSet& p = c.optical_model.parameters;
+  MediumTableOptions o;
+  o.nodes = p.text("tf") == "nodes";
+  o.entries = static_cast<int>(p.integer("tf_entries"));
+  o.lo = field.stored_min;
+  o.hi = field.stored_max;
+  if (!p.is_null("tf_range")) {
+    const nlohmann::json& range = p.json("tf_range");
+    o.lo = (range[0].get<double>() - field.intercept) / field.slope;
+    o.hi = (range[1].get<double>() - field.intercept) / field.slope;
+    if (o.lo > o.hi) std::swap(o.lo, o.hi);
+  }
+  if (!(o.hi > o.lo)) o.hi = o.lo + 1.0;  // a constant field: the table needs a width
+  return o;
+}
+
+void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
+  const ParameterSet& p = c.sampling.parameters;
+  const double jitter = p.number("jitter");
+  const auto background = c.image.vector3("background");
+  const bool linear = c.image.text("space") == "linear";
+  const auto decode = [&](double x) { return linear ? display_to_linear(x) : x; };
+  unit.uniforms.insert(
+      unit.uniforms.end(),
+      {Uniform::real("frame_step", step), Uniform::real("frame_inv_step", 1.0 / step),
+       Uniform::constant_integer("frame_jitter_on", jitter > 0 ? 1 : 0), Uniform::real("frame_jitter", jitter),
+       // The same 32 bits: the hash takes the seed as they are.
+       Uniform::integer("frame_seed", static_cast<int>(static_cast<std::uint32_t>(c.top.integer("seed")))),
+       Uniform::real("frame_termination", p.number("termination")),
+       Uniform::vector("frame_background", decode(background[0]), decode(background[1]), decode(background[2]))});
+}
+
+// Skipping only concerns grids; without it the kernel's binding holds one macrocell that is never empty.
+void add_skipping(bool wanted, const Field& field, const Medium& medium, const MediumTableOptions& options,
+                  KernelUnit& unit) {
+  const auto* grid = dynamic_cast<const GridField*>(&field);
+  std::vector<std::uint8_t> distance(4, 0);
+  std::array<int, 3> dims{1, 1, 1};
+  const bool skip = wanted && grid != nullptr;
+  if (skip) {
+    const auto cells = macrocells_of(*grid);
+    dims = cells->dims;
+    distance = empty_distance(*cells, OccupiedBins(medium, options));
+  }
+  unit.uniforms.insert(unit.uniforms.end(),
+                       {Uniform::constant_integer("frame_skip", skip ? 1 : 0), Uniform::integer("frame_skip_nx", dims[0]),
+                        Uniform::integer("frame_skip_ny", dims[1]), Uniform::integer("frame_skip_nz", dims[2])});
+  const std::uint64_t count = distance.size();
+  unit.buffers.push_back(make_buffer("frame_skip_distance", Element::u8, std::move(distance), count));
+}
+
+}  // namespace
+
+std::shared_ptr<const Field> FieldCache::load(const ResolvedCase& c, const Registry& registry) {
+  const std::string key = c.config.at("data").dump() + "|" + c.base_folder;
+  for (const auto& [known, field] : entries_)
+    if (known == key) return field;
+  auto field = registry.get<DataPlugin>("data", c.data.type, "data.type").load(c.data.parameters, load_context(c));
+  entries_.clear();  // one field at a time: the axes run data outermost, and memory is what limits
+  entries_.emplace_back(key, field);
+  return field;
+}
+
+void check_case(const ResolvedCase& c, const Registry& registry) {
+  std::vector<std::string> notes;
+  const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
+  refuse_impossible(c, medium,
+                    registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type").declaration());
+  if (c.lights.size() > 4)
+    throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
+  for (const Section& s : c.illumination) registry.get<IlluminationPlugin>("illumination", s.type, "illumination.type");
+}
+
+Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_ptr<const Field> field) {
+  Scene scene;
+  scene.field = field;
+  scene.notes = field->notes;
+  const ParameterSet& sampling = c.sampling.parameters;
+  scene.step = sampling.number("step") * (sampling.text("unit") == "voxel" ? field->voxel : 1.0);
+  if (sampling.text("unit") == "voxel") {
+    char text[120];
+    std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (smallest spacing %.9g)",
+                  sampling.number("step"), scene.step, field->voxel);
+    scene.notes.emplace_back(text);
+  }
+
+  const double a = field->slope * field->stored_min + field->intercept, b = field->slope * field->stored_max + field->intercept;
+  const Medium physical = model_medium(c, registry, field->voxel, std::min(a, b), std::max(a, b), scene.notes);
+  scene.medium = physical.rescaled(field->slope, field->intercept);
+  const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
+  const EstimatorDeclaration declared = estimator.declaration();
+  refuse_impossible(c, scene.medium, declared);
+
+  FrameJob& job = scene.job;
+  const nlohmann::json& size = c.image.json("size");
+  job.width = size[0].get<int>();
+  job.height = size[1].get<int>();
+  job.fast = c.top.text("precision") == "fast";
+  job.kernel_folder = Registry::kernel_folder();
+  if (!c.limits.is_null("gpu_buffer")) job.gpu_buffer_limit = std::uint64_t(c.limits.integer("gpu_buffer"));
+
+  const Terms terms = scene.medium.terms();
+  const LocalShading shading = local_shading(c, registry, *field, c.image.text("space") == "linear");
+  const bool surfaces = terms.has(Term::tau_s) || terms.has(Term::S_s) || terms.has(Term::W_s) || terms.dirac();
+  const bool shaded = terms.has(Term::S_l) || terms.has(Term::W_l);
+  job.rgb = terms.rgb();
+  job.full = surfaces || shading.mode == LocalShading::Mode::prescribed ||
+             (shaded && shading.mode != LocalShading::Mode::none);
+  MediumTableOptions options = table_options(c, *field);
+  options.rgb = job.rgb;
+  options.full = job.full;
+  options.fold_shaded = !job.full;
+
+  job.frame.plugin = "frame";
+  add_camera(c.camera, *field, job.width, job.height, job.frame);
+  add_clipping(c.clip, *field, job.frame);
+  add_sampling(c, scene.step, job.frame);
+  add_skipping(sampling.boolean("skipping"), *field, scene.medium, options, job.frame);
+  add_medium(scene.medium, options, job.frame);
+  add_shading(shading, std::abs(field->slope), job.frame);
+  const bool gradient = job.full && (shaded || surfaces) && shading.mode == LocalShading::Mode::blinn_phong;
+  job.frame.uniforms.insert(
+      job.frame.uniforms.end(),
+      {Uniform::constant_integer("frame_samples_ends", declared.samples == EstimatorDeclaration::Samples::ends ? 1 : 0),
+       Uniform::constant_integer("frame_neighbours", declared.neighbours && surfaces ? 1 : 0),
+       Uniform::constant_integer("frame_gradient", gradient ? 1 : 0)});
+
+  job.sampler = registry.get<SamplerPlugin>("sampler", field->sampler).bind(*field);
+  job.sampler.plugin = field->sampler;
+  job.sampler.folder = registry.find("sampler", field->sampler).folder;
+  job.estimator.plugin = c.estimator.type;
+  job.estimator.folder = c.estimator.folder;
+  job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);
+  estimator.prepare(c.estimator.parameters, {&scene.medium, options.lo, options.hi, scene.step}, job.estimator);
+  return scene;
+}
+
+}  // namespace dvrlab
