@@ -9,6 +9,7 @@
 #include "framework/config/resolve.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
+#include "framework/interfaces/field.h"
 #include "framework/scene/scene.h"
 
 namespace dvrlab {
@@ -189,10 +190,20 @@ class Planner {
         problems_.add(tree.where("metrics") + ": metric '" + m.type + "' is listed twice (keep one)");
     }
     try {
+      check_data_file(c.resolved);
       check_case(c.resolved, registry_);
     } catch (const InputError& e) {
       problems_.add(e.what());
     }
+  }
+
+  /// Data that is missing is found before the first case runs, unless it may be missing.
+  static void check_data_file(const ResolvedCase& c) {
+    const nlohmann::json& data = c.config["data"];
+    if (data["optional"] == true || !data.contains("file") || !data["file"].is_string()) return;
+    LoadContext context;
+    context.base_folder = c.base_folder;
+    resolve_path(data["file"].get<std::string>(), context, "data.file");
   }
 
   std::string unique_id(const std::string& text) {

@@ -1,0 +1,90 @@
+#include "framework/metric/measure.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "framework/interfaces/metric.h"
+#include "framework/report/log.h"
+
+namespace dvrlab {
+namespace {
+
+void compare(const std::vector<float>& a, const std::vector<float>& b, VariantCheck& check) {
+  if (a.size() != b.size()) {
+    check.different += std::max(a.size(), b.size());
+    check.max_abs = std::numeric_limits<double>::infinity();
+    return;
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::bit_cast<std::uint32_t>(a[i]) == std::bit_cast<std::uint32_t>(b[i])) continue;
+    ++check.different;
+    const double difference = std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+    check.max_abs =
+        std::max(check.max_abs, std::isfinite(difference) ? difference : std::numeric_limits<double>::infinity());
+  }
+}
+
+}  // namespace
+
+std::vector<Measure> measure(const ResolvedCase& c, const Registry& registry, const FrameImage& image,
+                             const FrameImage& reference, const std::string& against) {
+  std::vector<Measure> measures;
+  for (const Section& m : c.metrics) {
+    const auto& plugin = registry.get<MetricPlugin>("metric", m.type);
+    measures.push_back({against, m.type, plugin.compare(m.parameters, image, reference)});
+  }
+  return measures;
+}
+
+VariantCheck compare_bits(const FrameImage& image, const FrameImage& first) {
+  VariantCheck check;
+  compare(image.color, first.color, check);
+  compare(image.trans, first.trans, check);
+  return check;
+}
+
+Measurer::Measurer(const Experiment& experiment, const Registry& registry)
+    : experiment_(experiment), registry_(registry) {
+  for (std::size_t i = 0; i < experiment.cases.size(); ++i) {
+    last_use_[experiment.cases[i].first_variant] = i;
+    for (const auto& [name, index] : experiment.cases[i].references) last_use_[index] = i;
+  }
+}
+
+void Measurer::measure_case(std::size_t index, FrameImage image, CaseRecord& record) {
+  const PlannedCase& c = experiment_.cases[index];
+  const auto add = [&](const FrameImage& reference, const std::string& against) {
+    for (Measure& m : measure(c.resolved, registry_, image, reference, against))
+      record.measures.push_back(std::move(m));
+  };
+  for (const auto& [name, reference] : c.references) {
+    const auto found = kept_.find(reference);
+    if (found == kept_.end()) {
+      log_line("metrics", c.id + ": not measured against '" + name + "', which has no image");
+    } else {
+      add(found->second.image, name);
+    }
+  }
+  const auto first = kept_.find(c.first_variant);
+  if (first == kept_.end()) {
+    kept_.emplace(c.first_variant, Kept{c.id, std::move(image)});
+    return;
+  }
+  add(first->second.image, "variant");
+  record.variant = compare_bits(image, first->second.image);
+  record.variant->first = first->second.id;
+  if (record.variant->different > 0 && c.resolved.top.text("precision") == "strict") {
+    record.judge(Verdict::fail, std::to_string(record.variant->different) + " numbers differ from " +
+                                    record.variant->first + ", by at most " +
+                                    json_number(record.variant->max_abs).dump() +
+                                    "; variants must be equal to the bit");
+  }
+}
+
+void Measurer::done(std::size_t index) {
+  std::erase_if(kept_, [&](const auto& kept) { return last_use_.at(kept.first) <= index; });
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,139 @@
+#include "framework/render_case.h"
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "framework/interfaces/error.h"
+#include "framework/report/interrupt.h"
+#include "framework/report/log.h"
+
+namespace dvrlab {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+std::uint64_t available_memory() {
+  std::ifstream in("/proc/meminfo");
+  std::string name, unit;
+  std::uint64_t kib = 0;
+  while (in >> name >> kib) {
+    std::getline(in, unit);
+    if (name == "MemAvailable:") return kib * 1024;
+  }
+  throw NotSupported("/proc/meminfo does not say how much memory is available");
+}
+
+std::string mib(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f MiB", bytes / 1048576);
+  return text;
+}
+
+/// What a scene depends on: everything but the backend and what is only said about the case.
+std::string scene_key(const ResolvedCase& c) {
+  nlohmann::json key = c.config;
+  for (const char* name : {"backend", "name", "repeat", "warmup", "metrics"}) key.erase(name);
+  return key.dump();
+}
+
+bool optional_data_missing(const ResolvedCase& c, std::string& why) {
+  const ParameterSet& p = c.data.parameters;
+  if (!p.boolean("optional") || !c.config["data"].contains("file")) return false;
+  LoadContext context;
+  context.base_folder = c.base_folder;
+  try {
+    resolve_path(p.text("file"), context, p.path_of("file"));
+  } catch (const InputError& e) {
+    why = e.what();
+    return true;
+  }
+  return false;
+}
+
+nlohmann::json scene_section(const Scene& s, double seconds) {
+  const Field& f = *s.field;
+  nlohmann::json section = {
+      {"source", f.source},
+      {"sha256", f.sha256},
+      {"sampler", f.sampler},
+      {"value_range", {f.slope * f.stored_min + f.intercept, f.slope * f.stored_max + f.intercept}},
+      {"voxel_world", f.voxel},
+      {"step_world", s.step},
+      {"terms", s.medium.terms().text()},
+      {"notes", f.notes},
+      {"seconds", seconds}};
+  if (const auto* grid = dynamic_cast<const GridField*>(&f)) section["dims"] = grid->dims;
+  for (const std::string& note : s.notes) section["notes"].push_back(note);
+  return section;
+}
+
+}  // namespace
+
+CaseRenderer::CaseRenderer(const Registry& registry) : registry_(registry), memory_at_start_(available_memory()) {}
+
+const Scene& CaseRenderer::scene(const ResolvedCase& c, CaseRecord& record) {
+  const std::string key = scene_key(c);
+  if (scene_ == nullptr || key != scene_key_) {
+    scene_.reset();
+    std::string why;
+    if (optional_data_missing(c, why)) throw NotSupported(why);
+    const double start = now();
+    std::shared_ptr<const Field> field = fields_.load(c, registry_);
+    scene_ = std::make_unique<Scene>(build_scene(c, registry_, std::move(field)));
+    scene_key_ = key;
+    scene_record_ = scene_section(*scene_, now() - start);
+    for (const auto& note : scene_record_["notes"]) log_line("scene", note.get<std::string>());
+  }
+  record.scene = scene_record_;
+  return *scene_;
+}
+
+BackendSession& CaseRenderer::session(const ResolvedCase& c) {
+  std::unique_ptr<BackendSession>& open = sessions_[c.config["backend"].dump()];
+  if (open == nullptr) {
+    const Section& b = c.backend;
+    open = registry_.get<BackendPlugin>("backend", b.type).open(b.parameters, b.folder);
+    const DeviceInfo info = open->device();
+    log_line("backend", b.type + ": " + info.device + (info.detail.empty() ? "" : ", " + info.detail));
+  }
+  return *open;
+}
+
+void CaseRenderer::check_memory(const ResolvedCase& c, const Scene& scene, const BackendSession& session) const {
+  const FrameJob& job = scene.job;
+  double needed = static_cast<double>(session.bytes_needed(job));
+  for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) {
+    for (const Buffer& b : unit->buffers) needed += static_cast<double>(b.bytes());
+  }
+  const bool given = !c.limits.is_null("memory");
+  const double limit = given ? c.limits.json("memory").get<double>() : 0.75 * static_cast<double>(memory_at_start_);
+  if (needed <= limit) return;
+  throw NotSupported("the case needs " + mib(needed) + " of memory for data, tables and backend '" + c.backend.type +
+                     "'; " + (given ? "limits.memory allows " : "75 % of what was available is ") + mib(limit) +
+                     " (raise limits.memory, or take smaller data or images)");
+}
+
+FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseRecord& record) {
+  BackendSession& backend = session(c);
+  record.device = backend.device();
+  check_memory(c, scene, backend);
+  FrameResult frame;
+  for (long long i = 0; i < c.top.integer("warmup") && !interrupted(); ++i) {
+    frame = {};
+    backend.render(scene.job, frame);
+  }
+  std::vector<std::vector<PhaseTime>> repeats;
+  for (long long i = 0; i < c.top.integer("repeat") && !(i > 0 && interrupted()); ++i) {
+    frame = {};
+    const double start = now();
+    backend.render(scene.job, frame);
+    frame.times.push_back({"frame", now() - start, -1.0});
+    repeats.push_back(std::move(frame.times));
+  }
+  record.times = phase_statistics(repeats);
+  record.counters = frame.counters;
+  return std::move(frame.image);
+}
+
+}  // namespace dvrlab

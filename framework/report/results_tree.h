@@ -1,0 +1,29 @@
+// out/<experiment>/{cases/<id>/{case.json,image.exr,image.png}, results.csv}: the only contract between a run and
+// whatever reads its results. Every file appears complete or not at all.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/report/case_record.h"
+
+namespace dvrlab {
+
+class ResultsTree {
+ public:
+  /// Makes <out>/<experiment>/cases. Throws std::runtime_error when that is not possible.
+  ResultsTree(const std::string& out, const std::string& experiment);
+
+  const std::string& folder() const { return folder_; }
+  std::string case_folder(const std::string& id) const { return folder_ + "/cases/" + id; }
+
+  void write_images(const CaseRecord& record, const FrameImage& image) const;
+  void write_case(const CaseRecord& record) const;
+  /// One row per case; columns: id, role, axes, backend, verdict, counters, times, metrics.
+  void write_table(const std::vector<CaseRecord>& records) const;
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace dvrlab

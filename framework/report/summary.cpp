@@ -1,0 +1,90 @@
+#include "framework/report/summary.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "framework/report/text_table.h"
+
+namespace dvrlab {
+namespace {
+
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+std::size_t count(const RunSummary& s, Verdict v) {
+  return static_cast<std::size_t>(
+      std::count_if(s.records.begin(), s.records.end(), [&](const CaseRecord& r) { return r.verdict == v; }));
+}
+
+std::string row_time(const CaseRecord& r) {
+  const std::optional<double> march = r.seconds("march");
+  const std::optional<double> time = march ? march : r.seconds("frame");
+  return time ? short_number(*time * 1000) + " ms" : "-";
+}
+
+struct Worst {
+  const CaseRecord* record = nullptr;
+  std::size_t compared = 0;
+};
+
+Worst worst_variant(const RunSummary& s) {
+  Worst worst;
+  for (const CaseRecord& r : s.records) {
+    if (!r.variant) continue;
+    ++worst.compared;
+    if (worst.record == nullptr || r.variant->max_abs > worst.record->variant->max_abs) worst.record = &r;
+  }
+  return worst;
+}
+
+}  // namespace
+
+int exit_code(const RunSummary& s) {
+  if (count(s, Verdict::fail) > 0) return 1;
+  const bool some_ran = std::any_of(s.records.begin(), s.records.end(), [](const CaseRecord& r) { return r.ran; });
+  return count(s, Verdict::error) > 0 || s.stopped || !some_ran ? 3 : 0;
+}
+
+std::string summary_text(const RunSummary& s) {
+  std::vector<std::vector<std::string>> rows = {{"case", "backend", "march", "verdict", "max difference"}};
+  std::string reasons, expectations;
+  for (const CaseRecord& r : s.records) {
+    rows.push_back({r.plan->id, r.plan->resolved.backend.type, row_time(r), verdict_text(r.verdict),
+                    r.variant ? short_number(r.variant->max_abs) : "-"});
+    if (!r.reason.empty()) reasons += std::string(verdict_text(r.verdict)) + ": " + r.plan->id + ": " + r.reason + "\n";
+    for (const ExpectationResult& e : r.expectations) {
+      expectations +=
+          std::string(verdict_text(e.verdict)) + ": " + r.plan->id + ": " + e.text + " (" + e.reason + ")\n";
+    }
+  }
+  std::string text = text_table(rows) + reasons + expectations;
+  const Worst worst = worst_variant(s);
+  if (worst.record != nullptr) {
+    text += "variants: " + std::to_string(worst.compared) + " compared bit for bit, worst difference " +
+            short_number(worst.record->variant->max_abs) +
+            (worst.record->variant->different > 0 ? " (" + worst.record->plan->id + ")" : "") + "\n";
+  }
+  text += "verdicts:";
+  for (const Verdict v : {Verdict::pass, Verdict::fail, Verdict::not_supported, Verdict::error}) {
+    text += (v == Verdict::pass ? " " : ", ") + std::to_string(count(s, v)) + " " + verdict_text(v);
+  }
+  text += "\n";
+  if (s.stopped)
+    text += "stopped after " + std::to_string(s.records.size()) + " of " + std::to_string(s.planned) + " cases\n";
+  return text + "results: " + s.folder + "\n";
+}
+
+nlohmann::json summary_json(const RunSummary& s) {
+  nlohmann::json cases = nlohmann::json::array();
+  for (const CaseRecord& r : s.records) cases.push_back(case_json(r));
+  return {{"folder", s.folder},
+          {"stopped", s.stopped},
+          {"planned", s.planned},
+          {"exit_code", exit_code(s)},
+          {"cases", cases}};
+}
+
+}  // namespace dvrlab

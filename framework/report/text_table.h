@@ -1,0 +1,12 @@
+// Columns of text, aligned.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dvrlab {
+
+/// The first row is the heading. Two spaces between columns, none at the ends of lines.
+std::string text_table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace dvrlab
