@@ -20,6 +20,7 @@ RunSummary run_experiment(const RunOptions& options) {
   const ConfigDocument document = load_document(options.config, options.set);  // 1 config
   const Registry registry(options.plugin_path);                                // 2 plugins
   auto experiment = std::make_shared<const Experiment>(plan_experiment(document, registry));
+  log_line("config", experiment->name + ": " + std::to_string(experiment->cases.size()) + " cases are valid");
 
   const ResultsTree results(options.out, experiment->name);
   CaseRenderer renderer(registry);

@@ -37,11 +37,14 @@ std::string scene_key(const ResolvedCase& c) {
   return key.dump();
 }
 
+LoadContext load_context(const ResolvedCase& c) {
+  return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
+}
+
 bool optional_data_missing(const ResolvedCase& c, std::string& why) {
   const ParameterSet& p = c.data.parameters;
   if (!p.boolean("optional") || !c.config["data"].contains("file")) return false;
-  LoadContext context;
-  context.base_folder = c.base_folder;
+  const LoadContext context = load_context(c);
   try {
     resolve_path(p.text("file"), context, p.path_of("file"));
   } catch (const InputError& e) {
@@ -49,6 +52,14 @@ bool optional_data_missing(const ResolvedCase& c, std::string& why) {
     return true;
   }
   return false;
+}
+
+double bytes_of(const FrameJob& job) {
+  double bytes = 0;
+  for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) {
+    for (const Buffer& b : unit->buffers) bytes += static_cast<double>(b.bytes());
+  }
+  return bytes;
 }
 
 nlohmann::json scene_section(const Scene& s, double seconds) {
@@ -61,10 +72,9 @@ nlohmann::json scene_section(const Scene& s, double seconds) {
       {"voxel_world", f.voxel},
       {"step_world", s.step},
       {"terms", s.medium.terms().text()},
-      {"notes", f.notes},
+      {"notes", s.notes},
       {"seconds", seconds}};
   if (const auto* grid = dynamic_cast<const GridField*>(&f)) section["dims"] = grid->dims;
-  for (const std::string& note : s.notes) section["notes"].push_back(note);
   return section;
 }
 
@@ -79,6 +89,8 @@ const Scene& CaseRenderer::scene(const ResolvedCase& c, CaseRecord& record) {
     std::string why;
     if (optional_data_missing(c, why)) throw NotSupported(why);
     const double start = now();
+    const auto& data = registry_.get<DataPlugin>("data", c.data.type);
+    check_memory(c, static_cast<double>(data.bytes_needed(c.data.parameters, load_context(c))), "its data");
     std::shared_ptr<const Field> field = fields_.load(c, registry_);
     scene_ = std::make_unique<Scene>(build_scene(c, registry_, std::move(field)));
     scene_key_ = key;
@@ -100,24 +112,20 @@ BackendSession& CaseRenderer::session(const ResolvedCase& c) {
   return *open;
 }
 
-void CaseRenderer::check_memory(const ResolvedCase& c, const Scene& scene, const BackendSession& session) const {
-  const FrameJob& job = scene.job;
-  double needed = static_cast<double>(session.bytes_needed(job));
-  for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) {
-    for (const Buffer& b : unit->buffers) needed += static_cast<double>(b.bytes());
-  }
+void CaseRenderer::check_memory(const ResolvedCase& c, double needed, const std::string& what) const {
   const bool given = !c.limits.is_null("memory");
   const double limit = given ? c.limits.json("memory").get<double>() : 0.75 * static_cast<double>(memory_at_start_);
   if (needed <= limit) return;
-  throw NotSupported("the case needs " + mib(needed) + " of memory for data, tables and backend '" + c.backend.type +
-                     "'; " + (given ? "limits.memory allows " : "75 % of what was available is ") + mib(limit) +
+  throw NotSupported("the case needs " + mib(needed) + " of memory for " + what + "; " +
+                     (given ? "limits.memory allows " : "75 % of what was available is ") + mib(limit) +
                      " (raise limits.memory, or take smaller data or images)");
 }
 
 FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseRecord& record) {
   BackendSession& backend = session(c);
   record.device = backend.device();
-  check_memory(c, scene, backend);
+  check_memory(c, bytes_of(scene.job) + static_cast<double>(backend.bytes_needed(scene.job)),
+               "data, tables and backend '" + c.backend.type + "'");
   FrameResult frame;
   for (long long i = 0; i < c.top.integer("warmup") && !interrupted(); ++i) {
     frame = {};

@@ -27,7 +27,8 @@ class CaseRenderer {
 
  private:
   BackendSession& session(const ResolvedCase& c);
-  void check_memory(const ResolvedCase& c, const Scene& scene, const BackendSession& session) const;
+  /// Throws NotSupported when `needed` bytes are more than the case may use.
+  void check_memory(const ResolvedCase& c, double needed, const std::string& what) const;
 
   const Registry& registry_;
   std::uint64_t memory_at_start_;  // bytes that were available

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "framework/app/verbs.h"
+#include "framework/config/check_value.h"
+#include "framework/config/sections.h"
+#include "framework/config/words.h"
+#include "framework/interfaces/error.h"
+#include "framework/plugin/registry.h"
+#include "framework/report/text_table.h"
+
+namespace dvrlab {
+namespace {
+
+struct Described {
+  std::string kind, name, version, summary, citation;
+  std::vector<Parameter> keys;
+  std::vector<Parameter> shared;  // keys that all of the kind have
+};
+
+std::vector<Described> everything(const Registry& registry) {
+  std::vector<Described> all;
+  for (const PluginEntryInfo& e : registry.entries()) {
+    if (e.descriptor == nullptr) continue;
+    const PluginDescriptor& d = *e.descriptor;
+    const SectionType* common = find_section_type(e.kind, "");
+    all.push_back({e.kind,
+                   e.name,
+                   d.version,
+                   d.summary,
+                   d.citation,
+                   {d.parameters, d.parameters + d.parameter_count},
+                   common != nullptr ? common->keys : std::vector<Parameter>{}});
+  }
+  for (const SectionType& s : section_types()) all.push_back({s.section, s.type, "", s.summary, "", s.keys, {}});
+  return all;
+}
+
+/// "camera.perspective"; "image" for a section without types.
+std::string full_name(const Described& d) { return d.name.empty() ? d.kind : d.kind + "." + d.name; }
+
+const char* affects_text(Affects a) {
+  return a == Affects::pixels ? "pixels" : a == Affects::speed ? "speed" : "nothing";
+}
+
+std::string key_table(const std::vector<Parameter>& keys) {
+  std::vector<std::vector<std::string>> rows = {{"key", "unit", "default", "legal", "affects", "what it is"}};
+  for (const Parameter& p : keys) {
+    rows.push_back({p.name, *p.unit == '\0' ? "-" : p.unit, p.default_value == nullptr ? "(required)" : p.default_value,
+                    legal_text(p), affects_text(p.affects), p.summary});
+  }
+  return text_table(rows);
+}
+
+nlohmann::json key_list(const std::vector<Parameter>& keys) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Parameter& p : keys) {
+    list.push_back({{"name", p.name},
+                    {"unit", p.unit},
+                    {"default", p.default_value == nullptr ? nlohmann::json() : nlohmann::json::parse(p.default_value)},
+                    {"required", p.default_value == nullptr},
+                    {"legal", legal_text(p)},
+                    {"affects", affects_text(p.affects)},
+                    {"summary", p.summary}});
+  }
+  return list;
+}
+
+std::string text_of(const Described& d) {
+  std::string text = full_name(d) + (d.version.empty() ? "" : " " + d.version) + "\n" + d.summary + "\n";
+  if (!d.citation.empty()) text += "Source: " + d.citation + "\n";
+  if (!d.keys.empty()) text.append("\n").append(key_table(d.keys));
+  if (!d.shared.empty()) text += "\nshared by every " + d.kind + ":\n" + key_table(d.shared);
+  return text;
+}
+
+}  // namespace
+
+int describe_verb(const Options& o) {
+  const Registry registry(o.plugin_path);
+  std::vector<std::string> names;
+  std::vector<Described> found;
+  for (const Described& d : everything(registry)) {
+    names.push_back(full_name(d));
+    if (!d.name.empty()) names.push_back(d.name);
+    if (o.name == full_name(d) || (!d.name.empty() && o.name == d.name)) found.push_back(d);
+  }
+  if (found.empty()) {
+    for (const PluginEntryInfo& e : registry.entries()) {
+      if (o.name == e.name || o.name == e.kind + "." + e.name)
+        registry.find(e.kind, e.name);  // says what is wrong with it
+    }
+    std::erase_if(names, [](const std::string& n) {
+      return n.find('.') == std::string::npos && find_section_type(n, "") == nullptr;
+    });
+    std::sort(names.begin(), names.end());
+    std::string last_part = o.name.substr(o.name.find('.') + 1);
+    std::string nearest = nearest_name(o.name, names);
+    for (std::size_t i = 0; i < names.size() && nearest.empty(); ++i) {
+      if (!nearest_name(last_part, {names[i].substr(names[i].find('.') + 1)}).empty()) nearest = names[i];
+    }
+    throw InputError("no type '" + o.name + "' was found" +
+                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; there are " + join_words(names));
+  }
+  nlohmann::json list = nlohmann::json::array();
+  std::string text;
+  for (const Described& d : found) {
+    if (!text.empty()) text += "\n";
+    text += text_of(d);
+    list.push_back({{"kind", d.kind},
+                    {"name", d.name},
+                    {"version", d.version},
+                    {"summary", d.summary},
+                    {"citation", d.citation},
+                    {"parameters", key_list(d.keys)},
+                    {"shared", key_list(d.shared)}});
+  }
+  std::fputs(o.json ? (list.dump(1) + "\n").c_str() : text.c_str(), stdout);
+  return 0;
+}
+
+}  // namespace dvrlab

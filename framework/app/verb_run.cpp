@@ -1,0 +1,15 @@
+#include <cstdio>
+
+#include "framework/app/verbs.h"
+#include "framework/pipeline.h"
+
+namespace dvrlab {
+
+int run_verb(const Options& o) {
+  const RunSummary summary = run_experiment({o.config, o.set, o.plugin_path, o.out});
+  if (o.json) std::printf("%s\n", summary_json(summary).dump(1).c_str());
+  std::fputs(summary_text(summary).c_str(), stderr);
+  return exit_code(summary);
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,32 @@
+// The verbs of the command line. Each returns the exit code: 0 all good, 1 an expectation or a comparison failed,
+// 2 the input is wrong, 3 something could not run. InputError and NotSupported are turned into 2 and 3 by main().
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dvrlab {
+
+/// What was asked for on the command line. A verb reads the fields that its help names.
+struct Options {
+  std::vector<std::string> plugin_path;
+  bool json = false;
+  std::string config;
+  std::vector<std::string> set;
+  std::string out = "out";
+  std::string output;      // render -o
+  std::string name;        // list KIND, describe TYPE
+  std::string a, b;        // compare
+  double tolerance = 0;    // compare
+  std::vector<int> pixel;  // probe
+};
+
+int run_verb(const Options& options);
+int render_verb(const Options& options);
+int list_verb(const Options& options);
+int describe_verb(const Options& options);
+int validate_verb(const Options& options);
+int compare_verb(const Options& options);
+int probe_verb(const Options& options);
+
+}  // namespace dvrlab
