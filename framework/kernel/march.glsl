@@ -82,7 +82,7 @@ void main() {
     }
     ++i;
   }
-  int pixel = 2 * (y * frame_width + x);
+  int pixel = 2 * ((y - frame_band_y) * frame_width + x);
   dvr_out[pixel] = vec4(over_background(color, trans), uintBitsToFloat(uint(samples)));
   dvr_out[pixel + 1] = vec4(rgb_of(trans), uintBitsToFloat(uint(skipped * 2 + terminated)));
 }

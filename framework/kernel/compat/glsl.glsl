@@ -19,14 +19,14 @@
 #define v3(x, y, z) vec3(x, y, z)
 #define xyz(v) ((v).xyz)
 
-// Uniforms and buffers are declared by the generated blocks.
+// Uniforms and buffers are declared by the generated blocks, with the fetch functions of each buffer.
 #define UNIFORM_F(name)
 #define UNIFORM_I(name)
 #define UNIFORM_V(name)
 #define TABLE4(name)
 #define TABLEI(name)
 #define BYTES(name)
-#define VOXELS(name)
+#define VOXELS(name) DVR_DEFINE_FETCH_CELL(name)
 
 #define fetch1(name, i) fetch1_##name(uint(i))
 #define fetch2(name, i, a, b) fetch2_##name(uint(i), a, b)

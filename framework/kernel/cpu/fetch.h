@@ -35,12 +35,12 @@ struct bytes8 {
 /// Lane indices in memory: the loads below address lane by lane. Unsigned: volumes up to 2^32 voxels.
 struct lane_index {
   alignas(64) uint32_t i[W];
+  explicit DVR_INLINE lane_index(inti a) {
+    memcpy(i, &a.v, sizeof(i));
+    // Keeps the indices in memory: g++ 12 would rather extract them one by one from the register (1.3x slower).
+    asm("" : "+m"(*reinterpret_cast<uint32_t(*)[W]>(i)));
+  }
 };
-DVR_INLINE lane_index spill(inti a) {
-  lane_index r;
-  memcpy(r.i, &a.v, sizeof(r.i));
-  return r;
-}
 
 #ifdef DVR_SCALAR
 
@@ -77,28 +77,28 @@ DVR_INLINE vec4r fetch4_affine(table4 b, inti i, real w) {
 
 template <class T>
 DVR_INLINE real fetch1(voxels<T> b, inti i) {
-  const lane_index n = spill(i);
+  const lane_index n(i);
 #define DVR_ONE(l) int32_t(b.data[n.i[l]])
   const vi r = {DVR_LANES(DVR_ONE)};
 #undef DVR_ONE
   return to_real({r});
 }
 DVR_INLINE real fetch1(voxels<float> b, inti i) {
-  const lane_index n = spill(i);
+  const lane_index n(i);
 #define DVR_ONE(l) b.data[n.i[l]]
   const vf r = {DVR_LANES(DVR_ONE)};
 #undef DVR_ONE
   return {r};
 }
 DVR_INLINE inti fetchi(tablei b, inti i) {
-  const lane_index n = spill(i);
+  const lane_index n(i);
 #define DVR_ONE(l) b.data[n.i[l]]
   const vi r = {DVR_LANES(DVR_ONE)};
 #undef DVR_ONE
   return {r};
 }
 DVR_INLINE inti fetchi(bytes8 b, inti i) {
-  const lane_index n = spill(i);
+  const lane_index n(i);
 #define DVR_ONE(l) int32_t(b.data[n.i[l]])
   const vi r = {DVR_LANES(DVR_ONE)};
 #undef DVR_ONE
@@ -153,19 +153,40 @@ DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b)
 }
 #endif
 
-// Two 8-bit voxels in 16 bits, two 16-bit voxels in 32 bits, widened in registers.
-#define DVR_ONE8(l) pair_u8(p + n.i[l])
+// Two 8-bit voxels in 16 bits, two 16-bit voxels in 32 bits, widened in registers. The 16-bit loads are spelled as
+// inserts: an initializer list makes g++ 12 carry them through mask registers.
+DVR_INLINE __m128i pairs8(const void* voxels8, const lane_index& n, int first) {
+  const uint8_t* p = static_cast<const uint8_t*>(voxels8);
+  __m128i a = _mm_cvtsi32_si128(pair_u8(p + n.i[first]));
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 1]), 1);
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 2]), 2);
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 3]), 3);
+#if !defined(DVR_ISA_sse4_2)
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 4]), 4);
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 5]), 5);
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 6]), 6);
+  a = _mm_insert_epi16(a, pair_u8(p + n.i[first + 7]), 7);
+#endif
+  return a;
+}
+#if defined(DVR_ISA_avx512)
+DVR_INLINE vi load_pairs8(const void* p, const lane_index& n) {
+  const __m128i a = pairs8(p, n, 0), b = pairs8(p, n, 8);
+  return vi(_mm512_cvtepu16_epi32(_mm256_inserti128_si256(_mm256_castsi128_si256(a), b, 1)));
+}
+#elif defined(DVR_ISA_avx2)
+DVR_INLINE vi load_pairs8(const void* p, const lane_index& n) { return vi(_mm256_cvtepu16_epi32(pairs8(p, n, 0))); }
+#else
+DVR_INLINE vi load_pairs8(const void* p, const lane_index& n) { return vi(_mm_cvtepu16_epi32(pairs8(p, n, 0))); }
+#endif
 #define DVR_ONE16(l) pair_u16(p + n.i[l])
-typedef uint16_t v_pairs __attribute__((vector_size(2 * W)));
 DVR_INLINE void fetch2_at(const uint8_t* p, const lane_index& n, real& a, real& b) {
-  const v_pairs r = {DVR_LANES(DVR_ONE8)};
-  const vi w = __builtin_convertvector(r, vi);
+  const vi w = load_pairs8(p, n);
   a = to_real({w & 0xff});
   b = to_real({w >> 8});
 }
 DVR_INLINE void fetch2_at(const int8_t* p, const lane_index& n, real& a, real& b) {
-  const v_pairs r = {DVR_LANES(DVR_ONE8)};
-  const vi w = __builtin_convertvector(r, vi);
+  const vi w = load_pairs8(p, n);
   a = to_real({(w << 24) >> 24});
   b = to_real({(w << 16) >> 24});
 }
@@ -179,7 +200,6 @@ DVR_INLINE void fetch2_at(const int16_t* p, const lane_index& n, real& a, real& 
   a = to_real({(w << 16) >> 16});
   b = to_real({w >> 16});
 }
-#undef DVR_ONE8
 #undef DVR_ONE16
 
 // ---- table entries: lane 4b+j lies in 128-bit block b of zmm j, so a 4x4 transpose inside the blocks ends the work
@@ -214,14 +234,14 @@ DVR_INLINE vec4r transpose4(vblock a, vblock b, vblock c, vblock d) {
           {vf(DVR_B(shuffle_ps)(t2, t3, 0xee))}};
 }
 DVR_INLINE vec4r fetch4(table4 b, inti i) {
-  const lane_index n = spill(i);
+  const lane_index n(i);
   return transpose4(block4(b.data, n, 0, 4, 0), block4(b.data, n, 1, 4, 0), block4(b.data, n, 2, 4, 0),
                     block4(b.data, n, 3, 4, 0));
 }
 /// Entries are pairs (value, difference to the next): value + difference * w, interpolated before the transpose,
 /// where one multiply-add serves four channels of a quarter of the lanes.
 DVR_INLINE vec4r fetch4_affine(table4 b, inti i, real w) {
-  const lane_index n = spill(i);
+  const lane_index n(i);
 #define DVR_ROW(j, imm) \
   vblock(vf(block4(b.data, n, j, 8, 0)) + vf(block4(b.data, n, j, 8, 4)) * vf(DVR_B(shuffle_ps)(vblock(w.v), vblock(w.v), imm)))
   return transpose4(DVR_ROW(0, 0x00), DVR_ROW(1, 0x55), DVR_ROW(2, 0xaa), DVR_ROW(3, 0xff));
@@ -235,12 +255,12 @@ DVR_INLINE vec4r fetch4_affine(table4 b, inti i, real w) {
 
 template <class T>
 DVR_INLINE void fetch2(voxels<T> b, inti i, real& a, real& c) {
-  fetch2_at(b.data, spill(i), a, c);
+  fetch2_at(b.data, lane_index(i), a, c);
 }
 /// The cell whose first voxel has index `base`; dy and dz are the strides of y and z in voxels.
 template <class T>
 DVR_INLINE cell8 fetch_cell(voxels<T> b, inti base, int dy, int dz) {
-  const lane_index n = spill(base);
+  const lane_index n(base);
   const uint64_t sy = uint32_t(dy), sz = uint32_t(dz);
   cell8 r;
   fetch2_at(b.data, n, r.v000, r.v100);
