@@ -25,6 +25,7 @@ RULES = {
     "infinity": "no infinities and NaNs in kernels; opaque means T = 0",
     "directive": "only feature variants (#if DVR_RGB, DVR_FULL) and #define; language switches live in compat headers",
     "control": "conditions are uniform (uniforms, int, bool) or made of any_lane() and all_lanes()",
+    "reserved": "the word means something in GLSL or in C++; take another name",
     "inline": "functions start with KFN: an outlined one is slow and silent about it",
 }
 
@@ -36,6 +37,19 @@ BUILTINS = set(
     sqrtf expf powf fmaf""".split())
 TYPES = re.compile(r"^(float|double|half|float16_t|float32_t|float64_t|[dibu]?vec[234]|d?mat[234](x[234])?|uint|long|matrix)$")
 INFINITIES = re.compile(r"^(inf|infinity|INFINITY|HUGE_VALF?|HUGE_VAL|nan|NAN|isinf|isnan|uintBitsToFloat)$")
+RESERVED = set(
+    # GLSL: qualifiers and words kept for later
+    """attribute varying uniform buffer shared coherent volatile restrict readonly writeonly layout centroid flat smooth
+    noperspective patch sample subroutine in out inout invariant precise discard lowp mediump highp precision common
+    partition active filter input output resource packed row_major noise superp fixed unsigned asm cast sampler1D
+    sampler2D sampler3D image2D image3D atomic_uint hvec2 hvec3 hvec4 fvec2 fvec3 fvec4
+    """.split() +
+    # C++
+    """alignas alignof and and_eq auto bitand bitor case catch char class compl concept const_cast consteval constexpr
+    constinit decltype default delete dynamic_cast enum explicit export extern friend inline mutable namespace new
+    noexcept not not_eq nullptr operator or or_eq private protected public register reinterpret_cast requires short
+    signed sizeof static static_assert static_cast template this thread_local throw try typedef typeid typename union
+    using virtual wchar_t xor xor_eq""".split())
 SWIZZLE = re.compile(r"^([xyzw]{2,4}|[rgba]{2,4}|[stpq]{2,4})$")
 FLOAT = r"(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?[fF]?|\d+[eE][+-]?\d+[fF]?"
 TOKEN = re.compile(rf"(?P<hex>0[xX][0-9a-fA-F]+[uU]?)|(?P<float>{FLOAT})|(?P<int>\d+[uU]?)|(?P<name>[A-Za-z_]\w*)"
@@ -148,6 +162,8 @@ def lint(text, known_uniforms=()):
                 report(token.offset, "type", t)
             elif INFINITIES.match(t) and before != ".":
                 report(token.offset, "infinity", t)
+            elif t in RESERVED:
+                report(token.offset, "reserved", t)
             elif t == "goto" or t == "switch":
                 report(token.offset, "control", t)
             elif t in ("if", "while", "for") and after == "(":

@@ -56,6 +56,8 @@ PLANTED = {
     "control": ["while (x > R(0.0)) x = x - R(1.0);", "for (inti k = I(0); k < j; k = k + I(1)) x = x;",
                 "if (x > R(0.0)) x = x;", "do { x = x; } while (x > R(0.0));", "while (any_lane(x > R(0.0)) && x > R(1.0)) x = x;",
                 "for (int k = 0; to_real(I(k)) < x; ++k) x = x;"],
+    "reserved": ["mask flat = x > R(0.0);", "real sample = x;", "real new = x;", "mask not = x > R(1.0);",
+                 "static real y;"],
 }
 TOP_LEVEL = {"inline": ["real outlined(real x) { return x; }", "UNIFORM_I(demo_more) void outlined() { }"]}
 FRAME = "UNIFORM_F(demo_scale)\nKFN real planted(real x, vec3r v, inti j, int n) {\n%s\n  return x;\n}\n"
