@@ -110,14 +110,6 @@ Affine read_affine(const nifti_image& image, const std::string& name, std::vecto
   return a;
 }
 
-void read_scaling(const nifti_image& image, const std::string& name, NiftiHeader& h) {
-  if (image.scl_slope == 0) return;  // the format's way to say "none"
-  if (!std::isfinite(image.scl_slope) || !std::isfinite(image.scl_inter))
-    throw InputError(name + ": scl_slope or scl_inter is not finite; 0 means none");
-  h.slope = image.scl_slope;
-  h.intercept = image.scl_inter;
-}
-
 template <class Header>
 Image convert(std::span<const std::byte> file, nifti_image* (*to_image)(Header, const char*), const std::string& name) {
   Header raw;
@@ -126,23 +118,36 @@ Image convert(std::span<const std::byte> file, nifti_image* (*to_image)(Header, 
   return Image(to_image(raw, name.c_str()), nifti_image_free);
 }
 
-template <class Size, class Header>
-NiftiHeader check(std::span<const std::byte> file, bool swap, std::size_t dim_at, std::size_t type_at,
-                  nifti_image* (*to_image)(Header, const char*), const std::string& name) {
+// Read from the raw header: nifticlib turns a number that is not finite into 0.
+template <class Header>
+void read_scaling(std::span<const std::byte> file, bool swap, const std::string& name, NiftiHeader& h) {
+  const double slope = load<decltype(Header::scl_slope)>(file, offsetof(Header, scl_slope), swap);
+  const double intercept = load<decltype(Header::scl_inter)>(file, offsetof(Header, scl_inter), swap);
+  if (slope == 0) return;  // the format's way to say "none"
+  if (!std::isfinite(slope) || !std::isfinite(intercept))
+    throw InputError(name + ": scl_slope or scl_inter is not finite; 0 means none");
+  h.slope = slope;
+  h.intercept = intercept;
+}
+
+template <class Header>
+NiftiHeader read(std::span<const std::byte> file, bool swap, nifti_image* (*to_image)(Header, const char*),
+                 const std::string& name) {
+  using Size = std::remove_extent_t<decltype(Header::dim)>;
   NiftiHeader h;
   h.swap = swap;
   std::array<long long, 8> dim;
-  for (std::size_t a = 0; a < 8; ++a) dim[a] = load<Size>(file, dim_at + a * sizeof(Size), swap);
+  for (std::size_t a = 0; a < 8; ++a) dim[a] = load<Size>(file, offsetof(Header, dim) + a * sizeof(Size), swap);
   h.dims = read_dims(dim, name);
-  h.type = source_type(load<std::int16_t>(file, type_at, swap), name);
+  h.type = source_type(load<std::int16_t>(file, offsetof(Header, datatype), swap), name);
   grid_bytes(h.dims, bytes_of(h.type), name);
+  read_scaling<Header>(file, swap, name, h);
   const Image image = convert(file, to_image, name);
   if (!image) throw InputError(name + ": nifticlib refuses the header");
   if (image->iname_offset < static_cast<std::int64_t>(sizeof(Header)))
     throw InputError(name + ": vox_offset is " + std::to_string(image->iname_offset) + ", inside the header");
   h.voxel_offset = static_cast<std::uint64_t>(image->iname_offset);
   h.to_world = read_affine(*image, name, h.notes);
-  read_scaling(*image, name, h);
   return h;
 }
 
@@ -150,11 +155,8 @@ NiftiHeader check(std::span<const std::byte> file, bool swap, std::size_t dim_at
 
 NiftiHeader read_header(std::span<const std::byte> file, const std::string& name) {
   const Layout layout = read_layout(file, name);
-  if (layout.version == 1)
-    return check<std::int16_t>(file, layout.swap, offsetof(nifti_1_header, dim), offsetof(nifti_1_header, datatype),
-                               nifti_convert_n1hdr2nim, name);
-  return check<std::int64_t>(file, layout.swap, offsetof(nifti_2_header, dim), offsetof(nifti_2_header, datatype),
-                             nifti_convert_n2hdr2nim, name);
+  if (layout.version == 1) return read(file, layout.swap, nifti_convert_n1hdr2nim, name);
+  return read(file, layout.swap, nifti_convert_n2hdr2nim, name);
 }
 
 }  // namespace dvrlab::nifti

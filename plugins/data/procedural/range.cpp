@@ -12,7 +12,7 @@ using Range = std::array<double, 2>;
 
 // a + b * r
 Range affine(double a, double b, const Range& r) {
-  const auto [lo, hi] = std::minmax(a + b * r[0], a + b * r[1]);
+  const auto [lo, hi] = std::minmax({a + b * r[0], a + b * r[1]});
   return {lo, hi};
 }
 
@@ -38,14 +38,14 @@ Range distance_range(const std::array<double, 4>& c, const Vector3& lo, const Ve
 Range sine_range(const Range& turns) {
   const auto sine = [](double t) { return std::sin(2 * std::numbers::pi * t); };
   const auto holds = [&](double phase) { return std::floor(turns[1] - phase) >= std::ceil(turns[0] - phase); };
-  const auto [lo, hi] = std::minmax(sine(turns[0]), sine(turns[1]));
+  const auto [lo, hi] = std::minmax({sine(turns[0]), sine(turns[1])});
   return {holds(0.75) ? -1 : lo, holds(0.25) ? 1 : hi};
 }
 
 // Of c4 q^2 + c2 q with q = x^2: the ends, q = 0 where x changes sign, and the vertex.
 Range quartic_range(double c4, double c2, double lo, double hi) {
   const auto f = [=](double q) { return c4 * q * q + c2 * q; };
-  const auto [q0, q1] = std::minmax(lo * lo, hi * hi);
+  const auto [q0, q1] = std::minmax({lo * lo, hi * hi});
   const double least = lo <= 0 && hi >= 0 ? 0 : q0;
   const double vertex = c4 == 0 ? least : std::clamp(-c2 / (2 * c4), least, q1);
   return {std::min({f(least), f(vertex), f(q1)}), std::max({f(least), f(vertex), f(q1)})};
@@ -57,7 +57,7 @@ Range polyline_range(const FormulaParams& f, const Range& s) {
     along.p[0] = {1, 0, 0, 0};
     return value(along, {x, 0, 0});
   };
-  const auto [lo, hi] = std::minmax(at(s[0]), at(s[1]));
+  const auto [lo, hi] = std::minmax({at(s[0]), at(s[1])});
   Range r{lo, hi};
   for (const auto& n : f.node) {
     if (n[0] < s[0] || n[0] > s[1]) continue;
