@@ -59,8 +59,8 @@ GlDevice::GlDevice(const std::string& device, bool debug)
   limits_.target = ShaderTarget::opengl;
   limits_.buffer_range = std::uint64_t(limit(gl_, GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
   limits_.uniform_range = std::uint64_t(limit(gl_, GL_MAX_UNIFORM_BLOCK_SIZE));
-  limits_.storage_buffers = int(std::min(limit(gl_, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS),
-                                         limit(gl_, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)));
+  limits_.storage_buffers = int(
+      std::min(limit(gl_, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS), limit(gl_, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)));
   GLint bits = 0;
   gl_.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
   has_clock_ = bits > 0;

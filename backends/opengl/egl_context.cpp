@@ -10,14 +10,14 @@
 
 namespace dvrlab {
 
-#define DVRLAB_EGL_FUNCTIONS(X)                               \
-  X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                 \
-  X(PFNEGLQUERYSTRINGPROC, QueryString)                       \
-  X(PFNEGLINITIALIZEPROC, Initialize)                         \
-  X(PFNEGLBINDAPIPROC, BindAPI)                               \
-  X(PFNEGLCREATECONTEXTPROC, CreateContext)                   \
-  X(PFNEGLDESTROYCONTEXTPROC, DestroyContext)                 \
-  X(PFNEGLMAKECURRENTPROC, MakeCurrent)                       \
+#define DVRLAB_EGL_FUNCTIONS(X)               \
+  X(PFNEGLGETPROCADDRESSPROC, GetProcAddress) \
+  X(PFNEGLQUERYSTRINGPROC, QueryString)       \
+  X(PFNEGLINITIALIZEPROC, Initialize)         \
+  X(PFNEGLBINDAPIPROC, BindAPI)               \
+  X(PFNEGLCREATECONTEXTPROC, CreateContext)   \
+  X(PFNEGLDESTROYCONTEXTPROC, DestroyContext) \
+  X(PFNEGLMAKECURRENTPROC, MakeCurrent)       \
   X(PFNEGLGETCURRENTCONTEXTPROC, GetCurrentContext)
 
 struct EglFunctions {
@@ -25,7 +25,9 @@ struct EglFunctions {
   DVRLAB_EGL_FUNCTIONS(DVRLAB_EGL_MEMBER)
 #undef DVRLAB_EGL_MEMBER
   template <class F>
-  F extension(const char* name) const { return reinterpret_cast<F>(GetProcAddress(name)); }
+  F extension(const char* name) const {
+    return reinterpret_cast<F>(GetProcAddress(name));
+  }
 };
 
 namespace {
@@ -36,8 +38,8 @@ const EglFunctions& egl_functions() {
     if (library == nullptr)
       throw NotSupported(std::string("EGL cannot be loaded: ") + dlerror() + " (Debian: libegl1)");
     EglFunctions egl;
-#define DVRLAB_EGL_LOAD(type, name)                                      \
-  egl.name = reinterpret_cast<type>(dlsym(library, "egl" #name));        \
+#define DVRLAB_EGL_LOAD(type, name)                               \
+  egl.name = reinterpret_cast<type>(dlsym(library, "egl" #name)); \
   if (egl.name == nullptr) throw NotSupported("libEGL.so.1 lacks egl" #name);
     DVRLAB_EGL_FUNCTIONS(DVRLAB_EGL_LOAD)
 #undef DVRLAB_EGL_LOAD
@@ -64,7 +66,8 @@ std::vector<EglDevice> egl_devices(const EglFunctions& egl, const char* client) 
   const auto query = egl.extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
   const auto text = egl.extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
   const auto display = egl.extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  if (!has_word(client, "EGL_EXT_platform_device") || query == nullptr || text == nullptr || display == nullptr) return {};
+  if (!has_word(client, "EGL_EXT_platform_device") || query == nullptr || text == nullptr || display == nullptr)
+    return {};
   EGLint count = 0;
   if (!query(0, nullptr, &count)) return {};
   std::vector<EGLDeviceEXT> handles(static_cast<std::size_t>(count));
@@ -100,7 +103,8 @@ std::unique_ptr<EglContext> EglContext::open(const std::string& device, bool deb
       names.push_back(contexts.back() ? contexts.back()->gl().text(GL_RENDERER) : "unusable: " + reasons.substr(said));
     }
     const int chosen = choose_device("OpenGL", device, names);
-    if (!contexts[std::size_t(chosen)]) throw NotSupported("the OpenGL device " + device + " is " + names[std::size_t(chosen)]);
+    if (!contexts[std::size_t(chosen)])
+      throw NotSupported("the OpenGL device " + device + " is " + names[std::size_t(chosen)]);
     return std::move(contexts[std::size_t(chosen)]);
   }
   for (const EglDevice& d : devices)
@@ -108,14 +112,16 @@ std::unique_ptr<EglContext> EglContext::open(const std::string& device, bool deb
       if (auto context = attempt(d.display)) return context;
   const auto platform_display = egl.extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   if (has_word(client, "EGL_MESA_platform_surfaceless") && platform_display != nullptr)
-    if (auto context = attempt(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr))) return context;
+    if (auto context = attempt(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)))
+      return context;
   for (const EglDevice& d : devices)
     if (d.software)
       if (auto context = attempt(d.display)) return context;
   throw NotSupported("no OpenGL context can be had without a display: " +
-                     (reasons.empty() ? "EGL has neither EGL_EXT_platform_device nor EGL_MESA_platform_surfaceless, or no "
-                                        "driver (Debian: libegl-mesa0, libgl1-mesa-dri)"
-                                      : reasons));
+                     (reasons.empty()
+                          ? "EGL has neither EGL_EXT_platform_device nor EGL_MESA_platform_surfaceless, or no "
+                            "driver (Debian: libegl-mesa0, libgl1-mesa-dri)"
+                          : reasons));
 }
 
 EglContext::EglContext(const EglFunctions& egl, EGLDisplay display, bool debug) : egl_(egl), display_(display) {
@@ -124,10 +130,14 @@ EglContext::EglContext(const EglFunctions& egl, EGLDisplay display, bool debug) 
   for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context", "EGL_KHR_create_context"})
     if (!has_word(extensions, needed)) throw NotSupported(std::string("the EGL display lacks ") + needed);
   if (!egl.BindAPI(EGL_OPENGL_API)) throw NotSupported("the EGL display has no desktop OpenGL");
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4,
-                               EGL_CONTEXT_MINOR_VERSION, 5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_FLAGS_KHR, debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               5,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_CONTEXT_FLAGS_KHR,
+                               debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
                                EGL_NONE};
   context_ = egl.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   if (context_ == EGL_NO_CONTEXT) throw NotSupported("the driver has no OpenGL 4.5 core context");

@@ -7,13 +7,14 @@ namespace {
 
 constexpr Parameter parameters[] = {
     {"device", ParameterType::text, "", "\"\"", "",
-     "Index of the EGL device or a part of its renderer's name; empty: the first that is no software renderer, else one.",
+     "Index of the EGL device or a part of its renderer's name; empty: the first that is no software renderer, else "
+     "one.",
      Affects::speed},
     {"band_ms", ParameterType::number, "ms", "100", "(0,inf)",
      "Time that one dispatch should take; rows are split into bands to stay below it.", Affects::speed, "", "1"},
     {"debug", ParameterType::boolean, "", "false", "",
-     "Asks for a debug context; an error, undefined behaviour or message of high severity is an error.", Affects::speed, "",
-     "true"},
+     "Asks for a debug context; an error, undefined behaviour or message of high severity is an error.", Affects::speed,
+     "", "true"},
 };
 
 class OpenGl final : public BackendPlugin {

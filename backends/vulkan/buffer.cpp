@@ -18,7 +18,8 @@ std::span<const VkMemoryType> types_of(const VkPhysicalDeviceMemoryProperties& m
 
 /// How well a memory type serves; < 0: not at all. Small device-local windows that the CPU sees are left to drivers.
 int score(VkMemoryPropertyFlags flags, VulkanBuffer::Place place) {
-  const bool is_local = (flags & local) != 0, is_visible = (flags & visible) == visible, is_cached = (flags & cached) != 0;
+  const bool is_local = (flags & local) != 0, is_visible = (flags & visible) == visible,
+             is_cached = (flags & cached) != 0;
   if (place == VulkanBuffer::Place::host) return is_visible ? 2 * is_cached + !is_local : -1;
   return 4 * is_local + 2 * ((flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0) + is_cached;
 }

@@ -91,10 +91,14 @@ void VulkanContext::check(VkResult result, const char* what) const {
   const std::string where = std::string(properties_.deviceName) + ", " + what + ": ";
   const std::string bytes = " (" + std::to_string(allocated) + " bytes of buffers in use)";
   switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: throw NotSupported(where + "the machine is out of memory" + bytes);
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: throw NotSupported(where + "the device is out of memory" + bytes);
-    case VK_ERROR_DEVICE_LOST: throw std::runtime_error(where + "the device was lost" + bytes);
-    default: throw std::runtime_error(where + "VkResult " + std::to_string(result) + bytes);
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      throw NotSupported(where + "the machine is out of memory" + bytes);
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      throw NotSupported(where + "the device is out of memory" + bytes);
+    case VK_ERROR_DEVICE_LOST:
+      throw std::runtime_error(where + "the device was lost" + bytes);
+    default:
+      throw std::runtime_error(where + "VkResult " + std::to_string(result) + bytes);
   }
 }
 

@@ -71,8 +71,9 @@ ShaderLimits VulkanDevice::limits() const {
   result.target = ShaderTarget::vulkan;
   result.buffer_range = std::min<std::uint64_t>(limits.maxStorageBufferRange, allocation.maxMemoryAllocationSize);
   result.uniform_range = limits.maxUniformBufferRange;
-  result.storage_buffers = int(std::min({limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers,
-                                         limits.maxPerStageResources - uniform_blocks, plenty}));
+  result.storage_buffers =
+      int(std::min({limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers,
+                    limits.maxPerStageResources - uniform_blocks, plenty}));
   return result;
 }
 
@@ -98,12 +99,15 @@ void VulkanDevice::end_frame() {
 std::unique_ptr<GpuBuffer> VulkanDevice::make_buffer(BufferUse use, std::uint64_t bytes) {
   switch (use) {
     case BufferUse::uniform:
-      return std::make_unique<VulkanBuffer>(context_, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VulkanBuffer::Place::host, bytes);
+      return std::make_unique<VulkanBuffer>(context_, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VulkanBuffer::Place::host,
+                                            bytes);
     case BufferUse::storage:
-      return std::make_unique<VulkanBuffer>(context_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+      return std::make_unique<VulkanBuffer>(context_,
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                             VulkanBuffer::Place::device, bytes);
     case BufferUse::output:
-      return std::make_unique<VulkanBuffer>(context_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+      return std::make_unique<VulkanBuffer>(context_,
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                             VulkanBuffer::Place::device, bytes);
   }
   throw std::logic_error("buffer of an unknown use");
@@ -111,8 +115,9 @@ std::unique_ptr<GpuBuffer> VulkanDevice::make_buffer(BufferUse use, std::uint64_
 
 VulkanBuffer& VulkanDevice::staging() {
   if (!staging_)
-    staging_ = std::make_unique<VulkanBuffer>(context_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                              VulkanBuffer::Place::host, staging_bytes);
+    staging_ =
+        std::make_unique<VulkanBuffer>(context_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                       VulkanBuffer::Place::host, staging_bytes);
   return *staging_;
 }
 
@@ -132,8 +137,8 @@ void VulkanDevice::write(GpuBuffer& buffer, const void* data, std::uint64_t byte
     context_.run([&](VkCommandBuffer commands) {
       const VkBufferCopy copy{0, at, size};
       vkCmdCopyBuffer(commands, staging().handle(), target.handle(), 1, &copy);
-      barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-              VK_ACCESS_SHADER_READ_BIT);
+      barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     });
   }
 }
@@ -174,7 +179,8 @@ double VulkanDevice::dispatch(unsigned groups_x, unsigned groups_y) {
     program_->record(commands, groups_x, groups_y);
     if (queries_ != VK_NULL_HANDLE) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, 1);
     barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+            VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
   });
   return queries_ != VK_NULL_HANDLE ? elapsed() : -1.0;
 }

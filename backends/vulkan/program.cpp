@@ -59,7 +59,8 @@ void VulkanProgram::make_descriptors() {
   layout.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   layout.bindingCount = std::uint32_t(slots.size());
   layout.pBindings = slots.data();
-  context_.check(vkCreateDescriptorSetLayout(context_.device(), &layout, nullptr, &set_layout_), "creating a set layout");
+  context_.check(vkCreateDescriptorSetLayout(context_.device(), &layout, nullptr, &set_layout_),
+                 "creating a set layout");
   VkDescriptorPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   pool.maxSets = 1;
@@ -114,7 +115,8 @@ void VulkanProgram::make_pipeline(const Spirv& spirv) {
 }
 
 void VulkanProgram::bind(int binding, VkBuffer buffer) {
-  const auto slot = std::find_if(bindings_.begin(), bindings_.end(), [&](const GpuBinding& b) { return b.binding == binding; });
+  const auto slot =
+      std::find_if(bindings_.begin(), bindings_.end(), [&](const GpuBinding& b) { return b.binding == binding; });
   const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

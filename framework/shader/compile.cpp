@@ -62,7 +62,8 @@ Spirv translate(const ComposedShader& shader) {
 
 std::string shader_hash(const ComposedShader& shader) {
   const glslang::Version version = glslang::GetVersion();
-  const std::string options = std::string(pass_version) + (shader.target == ShaderTarget::vulkan ? " vulkan" : " opengl") +
+  const std::string options = std::string(pass_version) +
+                              (shader.target == ShaderTarget::vulkan ? " vulkan" : " opengl") +
                               (shader.fast ? " fast" : " strict") + " glslang " + std::to_string(version.major) + "." +
                               std::to_string(version.minor) + "." + std::to_string(version.patch) + "\n";
   return sha256({std::as_bytes(std::span(options)), std::as_bytes(std::span(shader.text))});

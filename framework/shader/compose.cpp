@@ -61,9 +61,10 @@ void check_page_count(const ComposedShader& shader, const ShaderLimits& limits, 
     list += (list.empty() ? "" : ", ") + paged.buffer.name + " " + std::to_string(paged.buffer.bytes());
   }
   if (pages + 1 > std::size_t(limits.storage_buffers))
-    throw NotSupported("the frame's buffers (bytes: " + list + ") need " + std::to_string(pages) + " pages of at most " +
-                       std::to_string(range) + " bytes, but the device binds only " +
-                       std::to_string(limits.storage_buffers - 1) + " beside the output; use smaller data or the cpu backend");
+    throw NotSupported("the frame's buffers (bytes: " + list + ") need " + std::to_string(pages) +
+                       " pages of at most " + std::to_string(range) + " bytes, but the device binds only " +
+                       std::to_string(limits.storage_buffers - 1) +
+                       " beside the output; use smaller data or the cpu backend");
 }
 
 }  // namespace
@@ -71,7 +72,8 @@ void check_page_count(const ComposedShader& shader, const ShaderLimits& limits, 
 ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   constexpr std::uint64_t smallest_limit = 64;  // bytes; a page holds whole words and the output's vectors
   if (job.gpu_buffer_limit != 0 && job.gpu_buffer_limit < smallest_limit)
-    throw InputError("gpu_buffer_limit must be 0 or at least " + std::to_string(smallest_limit) + " bytes");
+    throw InputError("limits.gpu_buffer is " + std::to_string(job.gpu_buffer_limit) + " bytes; it must be at least " +
+                     std::to_string(smallest_limit));
   const std::uint64_t range =
       job.gpu_buffer_limit == 0 ? limits.buffer_range : std::min(limits.buffer_range, job.gpu_buffer_limit);
   ComposedShader shader;
@@ -101,8 +103,7 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   shader.band = layout_block("dvr_band", band, limits.uniform_range);
   shader.band.binding = binding++;
   std::string generated =
-      "layout(std430, binding = 0) writeonly buffer dvr_output { vec4 dvr_out[]; };\n" +
-      block_text(shader.band, band);
+      "layout(std430, binding = 0) writeonly buffer dvr_output { vec4 dvr_out[]; };\n" + block_text(shader.band, band);
   for (const auto& [role, unit] : units) {
     UniformBlock block = layout_block(std::string("dvr_") + role, unit->uniforms, limits.uniform_range);
     block.binding = binding;
@@ -119,9 +120,15 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   for (const Part& part : part_list) {
     std::string name, text;
     switch (part.from) {
-      case From::framework: name = part.file, text = read_text(job.kernel_folder + "/" + part.file); break;
-      case From::generated: name = "generated declarations", text = generated; break;
-      case From::sampler: name = job.sampler.plugin + ".kernel", text = read_text(job.sampler.folder + "/" + name); break;
+      case From::framework:
+        name = part.file, text = read_text(job.kernel_folder + "/" + part.file);
+        break;
+      case From::generated:
+        name = "generated declarations", text = generated;
+        break;
+      case From::sampler:
+        name = job.sampler.plugin + ".kernel", text = read_text(job.sampler.folder + "/" + name);
+        break;
       case From::estimator:
         name = job.estimator.plugin + ".kernel", text = read_text(job.estimator.folder + "/" + name);
         break;

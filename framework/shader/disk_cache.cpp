@@ -2,13 +2,13 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
 
+#include "framework/report/log.h"
 #include "framework/scene/sha256.h"
 
 namespace dvrlab {
@@ -32,8 +32,7 @@ std::string hash_of(std::span<const std::byte> content) { return sha256({content
 void say_once(const std::string& folder, const std::string& reason) {
   static std::once_flag said;
   std::call_once(said, [&] {
-    std::fprintf(stderr, "backend: the cache %s cannot be written (%s); shaders are compiled each time\n", folder.c_str(),
-                 reason.c_str());
+    log_line("backend", "the cache " + folder + " cannot be written (" + reason + "); shaders are compiled each time");
   });
 }
 

@@ -44,14 +44,16 @@ int GpuSession::output_rows(int width, int height) const {
   constexpr int group = ComposedShader::workgroup;
   const std::uint64_t largest = device_->limits().buffer_range / (std::uint64_t(width) * pixel_bytes);
   if (largest < group)
-    throw NotSupported("an image " + std::to_string(width) + " pixels wide does not fit the device's storage buffers of " +
+    throw NotSupported("an image " + std::to_string(width) +
+                       " pixels wide does not fit the device's storage buffers of " +
                        std::to_string(device_->limits().buffer_range) + " bytes");
   const std::uint64_t rows = std::min<std::uint64_t>(largest, std::uint64_t(height) + group - 1);
   return int(rows / group * group);
 }
 
 std::uint64_t GpuSession::bytes_needed(const FrameJob& job) const {
-  const std::uint64_t output = std::uint64_t(output_rows(job.width, job.height)) * std::uint64_t(job.width) * pixel_bytes;
+  const std::uint64_t output =
+      std::uint64_t(output_rows(job.width, job.height)) * std::uint64_t(job.width) * pixel_bytes;
   const std::uint64_t image = std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * sizeof(float);
   std::uint64_t buffers = 0, largest = 0;
   for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator})
@@ -99,7 +101,8 @@ void GpuSession::upload(const ComposedShader& shader) {
     Resident fresh{paged.buffer, paged.page_elements, {}};
     for (const BufferPage& page : paged.pages) {
       fresh.pages.push_back(device_->make_buffer(BufferUse::storage, page.allocated));
-      device_->write(*fresh.pages.back(), static_cast<const std::byte*>(paged.buffer.data.get()) + page.offset, page.bytes);
+      device_->write(*fresh.pages.back(), static_cast<const std::byte*>(paged.buffer.data.get()) + page.offset,
+                     page.bytes);
     }
     resident_.emplace(paged.buffer.name, std::move(fresh));
   }

@@ -12,20 +12,27 @@ std::uint64_t round_up(std::uint64_t bytes, std::uint64_t to) { return (bytes + 
 
 /// How elements lie in the words that a shader reads.
 struct Packing {
-  const char* word;   // GLSL type of one array element
-  int shift;          // log2 of the elements per word
-  bool is_signed;     // of packed elements
+  const char* word;  // GLSL type of one array element
+  int shift;         // log2 of the elements per word
+  bool is_signed;    // of packed elements
 };
 
 Packing packing(Element element) {
   switch (element) {
-    case Element::u8: return {"uint", 2, false};
-    case Element::i8: return {"uint", 2, true};
-    case Element::u16: return {"uint", 1, false};
-    case Element::i16: return {"uint", 1, true};
-    case Element::f32: return {"float", 0, true};
-    case Element::vec4: return {"vec4", 0, true};
-    case Element::i32: return {"int", 0, true};
+    case Element::u8:
+      return {"uint", 2, false};
+    case Element::i8:
+      return {"uint", 2, true};
+    case Element::u16:
+      return {"uint", 1, false};
+    case Element::i16:
+      return {"uint", 1, true};
+    case Element::f32:
+      return {"float", 0, true};
+    case Element::vec4:
+      return {"vec4", 0, true};
+    case Element::i32:
+      return {"int", 0, true};
   }
   throw std::logic_error("buffer of an unknown element type");
 }
@@ -107,7 +114,8 @@ std::string buffer_text(const PagedBuffer& paged) {
   if (pack.shift != 0) return text + unpack_function(name, pack) + packed_functions(name, pack);
   if (paged.buffer.element == Element::vec4)
     return text + "vec4 fetch4_" + name + "(int i) { return " + word + "(uint(i)); }\n";
-  if (paged.buffer.element == Element::i32) text += "int fetchi_" + name + "(int i) { return " + word + "(uint(i)); }\n";
+  if (paged.buffer.element == Element::i32)
+    text += "int fetchi_" + name + "(int i) { return " + word + "(uint(i)); }\n";
   return text + "float fetch1_" + name + "(uint i) { return float(" + word + "(i)); }\nvoid fetch2_" + name +
          "(uint i, out float a, out float b) {\n  a = float(" + word + "(i));\n  b = float(" + word + "(i + 1u));\n}\n";
 }

@@ -49,18 +49,27 @@ void for_each_instruction(const Spirv& module, F f) {
 }
 
 bool is_float_arithmetic(std::uint32_t op) {
-  return op == OpFNegate || op == OpFAdd || op == OpFSub || op == OpFMul || op == OpFDiv || op == OpFRem || op == OpFMod ||
-         (op >= OpVectorTimesScalar && op <= OpDot);
+  return op == OpFNegate || op == OpFAdd || op == OpFSub || op == OpFMul || op == OpFDiv || op == OpFRem ||
+         op == OpFMod || (op >= OpVectorTimesScalar && op <= OpDot);
 }
 
 const char* inexact_operator(std::uint32_t op) {
   switch (op) {
-    case OpFDiv: return "division";
-    case OpFRem: case OpFMod: return "the remainder of floats";
-    case OpMatrixTimesScalar: case OpVectorTimesMatrix: case OpMatrixTimesVector: case OpMatrixTimesMatrix:
-    case OpOuterProduct: return "a matrix product";
-    case OpDot: return "dot";
-    default: return nullptr;
+    case OpFDiv:
+      return "division";
+    case OpFRem:
+    case OpFMod:
+      return "the remainder of floats";
+    case OpMatrixTimesScalar:
+    case OpVectorTimesMatrix:
+    case OpMatrixTimesVector:
+    case OpMatrixTimesMatrix:
+    case OpOuterProduct:
+      return "a matrix product";
+    case OpDot:
+      return "dot";
+    default:
+      return nullptr;
   }
 }
 
@@ -72,12 +81,13 @@ bool is_exact(std::uint32_t instruction) {
 
 std::string extended_name(std::uint32_t instruction) {
   static const std::map<std::uint32_t, const char*> names{
-      {10, "fract"}, {11, "radians"},     {12, "degrees"}, {13, "sin"},      {14, "cos"},   {15, "tan"},
-      {25, "atan"},  {26, "pow"},         {27, "exp"},     {28, "log"},      {29, "exp2"},  {30, "log2"},
-      {31, "sqrt"},  {32, "inversesqrt"}, {46, "mix"},     {49, "smoothstep"}, {50, "fma"}, {66, "length"},
-      {67, "distance"}, {68, "cross"},    {69, "normalize"}, {71, "reflect"}, {72, "refract"}};
+      {10, "fract"},    {11, "radians"},     {12, "degrees"},   {13, "sin"},        {14, "cos"},    {15, "tan"},
+      {25, "atan"},     {26, "pow"},         {27, "exp"},       {28, "log"},        {29, "exp2"},   {30, "log2"},
+      {31, "sqrt"},     {32, "inversesqrt"}, {46, "mix"},       {49, "smoothstep"}, {50, "fma"},    {66, "length"},
+      {67, "distance"}, {68, "cross"},       {69, "normalize"}, {71, "reflect"},    {72, "refract"}};
   const auto found = names.find(instruction);
-  return found != names.end() ? found->second : "the built-in function " + std::to_string(instruction) + " of GLSL.std.450";
+  return found != names.end() ? found->second
+                              : "the built-in function " + std::to_string(instruction) + " of GLSL.std.450";
 }
 
 std::string text_of(std::span<const std::uint32_t> words) {
@@ -106,7 +116,9 @@ void add_no_contraction(Spirv& module) {
 void check_strict(const Spirv& module) {
   for_each_instruction(module, [](std::uint32_t op, std::span<const std::uint32_t> words) {
     const char* name = inexact_operator(op);
-    const std::string what = name != nullptr ? name : op == OpExtInst && !is_exact(words[4]) ? extended_name(words[4]) : "";
+    const std::string what = name != nullptr                          ? name
+                             : op == OpExtInst && !is_exact(words[4]) ? extended_name(words[4])
+                                                                      : "";
     if (!what.empty())
       throw std::runtime_error("a kernel uses " + what +
                                ", whose bits differ between devices; precision \"strict\" allows only the kernel "
@@ -127,7 +139,8 @@ void check_offsets(const Spirv& module, const UniformBlock& block) {
   if (type == type_of.end()) return;  // nothing reads it: the compiler dropped the block
   for (const UniformBlock::Member& member : block.members) {
     const auto index = member_of.find({type->second, member.name});
-    if (index == member_of.end()) throw std::logic_error(block.name + " lacks " + member.name + " in the compiled shader");
+    if (index == member_of.end())
+      throw std::logic_error(block.name + " lacks " + member.name + " in the compiled shader");
     const auto offset = offset_of.find({type->second, index->second});
     if (offset == offset_of.end() || offset->second != member.offset)
       throw std::logic_error(block.name + "." + member.name + " is not at byte " + std::to_string(member.offset) +

@@ -13,9 +13,12 @@ namespace {
 
 const char* type_word(Uniform::Type type) {
   switch (type) {
-    case Uniform::Type::f32: return "float";
-    case Uniform::Type::i32: return "int";
-    case Uniform::Type::vec4: return "vec4";
+    case Uniform::Type::f32:
+      return "float";
+    case Uniform::Type::i32:
+      return "int";
+    case Uniform::Type::vec4:
+      return "vec4";
   }
   throw std::logic_error("uniform of an unknown type");
 }
@@ -29,7 +32,8 @@ std::string literal(const Uniform& uniform, float value) {
 
 std::string literal(const Uniform& uniform) {
   switch (uniform.type) {
-    case Uniform::Type::f32: return literal(uniform, uniform.f[0]);
+    case Uniform::Type::f32:
+      return literal(uniform, uniform.f[0]);
     case Uniform::Type::i32:
       // The literal 2147483648 does not exist, so its negative has no decimal form.
       return uniform.i == std::numeric_limits<int>::min() ? "int(0x80000000u)" : std::to_string(uniform.i);
@@ -65,7 +69,8 @@ std::string block_text(const UniformBlock& block, const std::vector<Uniform>& un
   std::string members, constants;
   for (const Uniform& uniform : uniforms) {
     if (uniform.constant)
-      constants += std::string("const ") + type_word(uniform.type) + " " + uniform.name + " = " + literal(uniform) + ";\n";
+      constants +=
+          std::string("const ") + type_word(uniform.type) + " " + uniform.name + " = " + literal(uniform) + ";\n";
     else
       members += std::string("  ") + type_word(uniform.type) + " " + uniform.name + ";\n";
   }
