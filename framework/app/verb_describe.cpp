@@ -100,7 +100,8 @@ int describe_verb(const Options& o) {
       if (!nearest_name(last_part, {names[i].substr(names[i].find('.') + 1)}).empty()) nearest = names[i];
     }
     throw InputError("no type '" + o.name + "' was found" +
-                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; there are " + join_words(names));
+                     (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)") + "; there are " +
+                     join_words(names));
   }
   nlohmann::json list = nlohmann::json::array();
   std::string text;

@@ -40,9 +40,7 @@ int list_verb(const Options& o) {
     }
     std::erase_if(rows, [&](const Row& r) { return r.kind != o.name; });
     if (rows.empty()) {
-      const std::string nearest = nearest_name(o.name, kinds);
-      throw InputError("nothing of kind '" + o.name + "' was found" +
-                       (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; there are " +
+      throw InputError("nothing of kind '" + o.name + "' was found" + did_you_mean(o.name, kinds) + "; there are " +
                        join_words(kinds));
     }
   }

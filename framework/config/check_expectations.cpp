@@ -23,9 +23,8 @@ void check_expectations(const Experiment& experiment, const ConfigTree& tree, Pr
     }
     const auto name_in = [&](const char* what, const std::string& name, const std::vector<std::string>& legal) {
       if (std::find(legal.begin(), legal.end(), name) != legal.end()) return;
-      const std::string nearest = nearest_name(name, legal);
-      problems.add(where + "there is no " + what + " '" + name + "'" +
-                   (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; there are: " + join_words(legal));
+      problems.add(where + "there is no " + what + " '" + name + "'" + did_you_mean(name, legal) +
+                   "; there are: " + join_words(legal));
     };
     if (!applied) {
       problems.add(where + "no case is meant: none has all the values of `where`");

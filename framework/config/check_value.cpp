@@ -137,9 +137,7 @@ std::string wrong_value(const Parameter& p, const json& value) {
     for (const std::string& word : legal) {
       if (word == found) return "";
     }
-    const std::string nearest = nearest_name(found, legal);
-    return "found '" + found + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; must be " +
-           legal_text(p);
+    return "found '" + found + "'" + did_you_mean(found, legal) + "; must be " + legal_text(p);
   }
   return "";
 }

@@ -11,10 +11,11 @@ std::string number_text(double x) { return nlohmann::json(x).dump(); }
 Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& problems) {
   const SectionType& type = *find_section_type("expect", "");
   nlohmann::json unused;
-  const std::size_t before = problems.count();
-  const ParameterSet p = resolve_keys(tree, path, {type.keys, type.shapes, {}}, problems, unused);
+  Problems mine;
+  const ParameterSet p = resolve_keys(tree, path, {type.keys, type.shapes, {}}, mine, unused);
   Expectation e;
-  if (problems.count() != before) return e;
+  problems.add(mine);
+  if (!mine.empty()) return e;
   e.metric = p.text("metric");
   e.against = p.text("against");
   for (const auto& [key, value] : p.json("where").items()) e.where.emplace_back(key, value);

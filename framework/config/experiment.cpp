@@ -180,20 +180,24 @@ class Planner {
   }
 
   void resolve(const ConfigTree& tree, PlannedCase& c, const std::string& name) {
-    const std::size_t before = problems_.count();
-    c.resolved = resolve_case(tree, document_.base_folder, registry_, problems_);
+    Problems problems;
+    c.resolved = resolve_case(tree, document_.base_folder, registry_, problems);
     c.resolved.config["name"] = name;
-    if (problems_.count() != before) return;
+    if (problems.empty()) check(tree, c.resolved, problems);
+    problems_.add(problems);
+  }
+
+  void check(const ConfigTree& tree, const ResolvedCase& c, Problems& problems) const {
     std::set<std::string> metrics;
-    for (const Section& m : c.resolved.metrics) {
+    for (const Section& m : c.metrics) {
       if (!metrics.insert(m.type).second)
-        problems_.add(tree.where("metrics") + ": metric '" + m.type + "' is listed twice (keep one)");
+        problems.add(tree.where("metrics") + ": metric '" + m.type + "' is listed twice (keep one)");
     }
     try {
-      check_data_file(c.resolved);
-      check_case(c.resolved, registry_);
+      check_data_file(c);
+      check_case(c, registry_);
     } catch (const InputError& e) {
-      problems_.add(e.what());
+      problems.add(e.what());
     }
   }
 

@@ -11,6 +11,10 @@ void Problems::add(std::string line) {
   if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(std::move(line));
 }
 
+void Problems::add(const Problems& others) {
+  for (const std::string& line : others.lines_) add(line);
+}
+
 void Problems::raise() const {
   if (!lines_.empty()) throw InputError(join_words(lines_, "\n"));
 }

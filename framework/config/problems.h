@@ -11,8 +11,9 @@ class Problems {
   /// One line: place, path, what was found, what would be right. A line that is there already is not added: the
   /// same mistake shows up in every case of a product.
   void add(std::string line);
+  void add(const Problems& others);
   bool empty() const { return lines_.empty(); }
-  std::size_t count() const { return lines_.size(); }
+  const std::vector<std::string>& lines() const { return lines_; }
   /// Throws InputError with all lines, one each, when there are any.
   void raise() const;
 

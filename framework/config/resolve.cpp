@@ -13,9 +13,7 @@ const ConfigJson empty_section = ConfigJson::object();
 
 std::string unknown_word(const std::string& what, const std::string& found, std::vector<std::string> legal) {
   std::sort(legal.begin(), legal.end());
-  const std::string nearest = nearest_name(found, legal);
-  return "unknown " + what + " '" + found + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
-         "; legal: " + join_words(legal);
+  return "unknown " + what + " '" + found + "'" + did_you_mean(found, legal) + "; legal: " + join_words(legal);
 }
 
 bool fits(const Declaration& declaration, const Parameter& p, const nlohmann::json& value) {

@@ -46,4 +46,9 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
   return nearest;
 }
 
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& legal) {
+  const std::string nearest = nearest_name(word, legal);
+  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+}
+
 }  // namespace dvrlab

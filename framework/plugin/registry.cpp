@@ -99,9 +99,7 @@ const PluginEntryInfo& Registry::find(const std::string& kind, const std::string
   std::sort(there.begin(), there.end());
   std::vector<std::string> searched;
   for (const std::string& root : roots_) searched.push_back(root + "/" + kind);
-  const std::string nearest = nearest_name(name, there);
-  throw InputError(where + "no " + kind + " '" + name + "' was found" +
-                   (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
+  throw InputError(where + "no " + kind + " '" + name + "' was found" + did_you_mean(name, there) +
                    (there.empty() ? "; there is none" : "; there are " + join_words(there)) +
                    (searched.empty() ? "; no plugin folder was found" : "; searched " + join_words(searched)));
 }

@@ -51,5 +51,7 @@ class Registry {
 
 /// The element of `legal` nearest to `word` by edit distance; "" when nothing is near.
 std::string nearest_name(const std::string& word, const std::vector<std::string>& legal);
+/// " (did you mean 'direct'?)" for messages; "" when nothing is near.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& legal);
 
 }  // namespace dvrlab

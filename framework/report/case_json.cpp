@@ -66,7 +66,7 @@ json image_of(const CaseRecord& r) {
 
 }  // namespace
 
-nlohmann::json case_json(const CaseRecord& r) {
+nlohmann::ordered_json case_json(const CaseRecord& r) {
   json choices = json::object(), references = json::object();
   for (const AxisChoice& c : r.plan->choices) choices[c.key] = c.label;
   return {{"config", r.plan->resolved.config},

@@ -70,7 +70,7 @@ std::vector<PhaseStatistics> phase_statistics(const std::vector<std::vector<Phas
 void CaseRecord::judge(Verdict v, const std::string& why) {
   if (worse(verdict, v) == verdict) return;
   verdict = v;
-  reason = why;
+  reason = why.substr(0, why.find_last_not_of(" \n") + 1);
 }
 
 std::optional<double> CaseRecord::seconds(const std::string& phase) const {

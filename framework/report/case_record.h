@@ -67,8 +67,8 @@ struct CaseRecord {
   std::optional<double> value(const std::string& metric, const std::string& against) const;
 };
 
-/// The seven sections of case.json.
-nlohmann::json case_json(const CaseRecord& record);
+/// The seven sections of case.json, in the order of the stages.
+nlohmann::ordered_json case_json(const CaseRecord& record);
 
 /// A number as JSON; what JSON cannot say becomes the text "inf", "-inf" or "nan".
 nlohmann::json json_number(double x);

@@ -8,6 +8,7 @@
 #include "framework/config/axes.h"
 #include "framework/image/atomic_file.h"
 #include "framework/image/image_io.h"
+#include "framework/report/pretty_json.h"
 
 namespace dvrlab {
 namespace fs = std::filesystem;
@@ -65,6 +66,11 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 std::string text_of(double x) {
   const nlohmann::json n = json_number(x);
   return n.is_string() ? n.get<std::string>() : n.dump();
@@ -87,8 +93,7 @@ void ResultsTree::write_images(const CaseRecord& r, const FrameImage& image) con
 
 void ResultsTree::write_case(const CaseRecord& r) const {
   make_folder(case_folder(r.plan->id));
-  write_text(case_folder(r.plan->id) + "/case.json",
-             case_json(r).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(case_folder(r.plan->id) + "/case.json", pretty_json(case_json(r)) + "\n");
 }
 
 void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
@@ -101,7 +106,7 @@ void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
     table.set("backend.type", r.plan->resolved.backend.type);
     table.set("device", r.device.device);
     table.set("verdict", verdict_text(r.verdict));
-    table.set("reason", r.reason);
+    table.set("reason", one_line(r.reason));
     if (!r.ran) continue;
     table.set("samples", std::to_string(r.counters.samples));
     table.set("skipped", std::to_string(r.counters.skipped));

@@ -50,17 +50,31 @@ int exit_code(const RunSummary& s) {
 
 std::string summary_text(const RunSummary& s) {
   std::vector<std::vector<std::string>> rows = {{"case", "backend", "march", "verdict", "max difference"}};
-  std::string reasons, expectations;
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;  // what was said -> of which cases
+  const auto say = [&](const std::string& what, const std::string& id) {
+    const auto known = std::find_if(reasons.begin(), reasons.end(), [&](const auto& r) { return r.first == what; });
+    if (known == reasons.end()) {
+      reasons.push_back({what, {id}});
+    } else {
+      known->second.push_back(id);
+    }
+  };
   for (const CaseRecord& r : s.records) {
     rows.push_back({r.plan->id, r.plan->resolved.backend.type, row_time(r), verdict_text(r.verdict),
                     r.variant ? short_number(r.variant->max_abs) : "-"});
-    if (!r.reason.empty()) reasons += std::string(verdict_text(r.verdict)) + ": " + r.plan->id + ": " + r.reason + "\n";
+    bool said = false;
     for (const ExpectationResult& e : r.expectations) {
-      expectations +=
-          std::string(verdict_text(e.verdict)) + ": " + r.plan->id + ": " + e.text + " (" + e.reason + ")\n";
+      say(std::string(verdict_text(e.verdict)) + ": expected " + e.text + ": " + e.reason, r.plan->id);
+      said = said || e.verdict == r.verdict;
     }
+    if (!r.reason.empty() && !said) say(std::string(verdict_text(r.verdict)) + ": " + r.reason, r.plan->id);
   }
-  std::string text = text_table(rows) + reasons + expectations;
+  std::string text = text_table(rows);
+  for (const auto& [what, ids] : reasons) {
+    text.append(what).append(" [").append(ids.front());
+    if (ids.size() > 1) text.append(" and ").append(std::to_string(ids.size() - 1)).append(" more");
+    text += "]\n";
+  }
   const Worst worst = worst_variant(s);
   if (worst.record != nullptr) {
     text += "variants: " + std::to_string(worst.compared) + " compared bit for bit, worst difference " +
@@ -77,8 +91,8 @@ std::string summary_text(const RunSummary& s) {
   return text + "results: " + s.folder + "\n";
 }
 
-nlohmann::json summary_json(const RunSummary& s) {
-  nlohmann::json cases = nlohmann::json::array();
+nlohmann::ordered_json summary_json(const RunSummary& s) {
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const CaseRecord& r : s.records) cases.push_back(case_json(r));
   return {{"folder", s.folder},
           {"stopped", s.stopped},

@@ -25,6 +25,6 @@ int exit_code(const RunSummary& summary);
 /// One row per case (case, backend, median of the march, verdict, largest difference to the first variant), the
 /// worst difference, the expectations and the count of every verdict.
 std::string summary_text(const RunSummary& summary);
-nlohmann::json summary_json(const RunSummary& summary);
+nlohmann::ordered_json summary_json(const RunSummary& summary);
 
 }  // namespace dvrlab
