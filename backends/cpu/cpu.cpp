@@ -1,5 +1,6 @@
 // The cpu backend: kernel modules of one instruction set, chosen at run time, over image tiles on all cores.
 #include "backends/cpu/isa.h"
+#include "backends/cpu/probe.h"
 #include "backends/cpu/tiles.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/plugin.h"
@@ -36,6 +37,9 @@ class CpuSession : public BackendSession {
   void render(const FrameJob& job, FrameResult& result) override {
     if (job.fast) throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
     cpu::render_tiles(job, isa_, march_folder_, modules_, options_, result);
+  }
+  std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y) override {
+    return cpu::probe_ray(job, isa_, march_folder_, modules_, x, y);
   }
 
  private:

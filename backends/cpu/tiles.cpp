@@ -15,30 +15,42 @@
 
 namespace dvrlab::cpu {
 
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
+FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+
 namespace {
 
-/// The same treatment of denormal numbers on every thread (flush both), whatever the caller had.
-class FlushDenormals {
- public:
-  FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
-  ~FlushDenormals() { _mm_setcsr(saved_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
+dvr_bindings view_of(const FrameJob& job, Bindings& bindings) {
+  for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) bindings.add(*unit);
+  return bindings.view();
+}
 
- private:
-  unsigned saved_;
-};
+int features_of(const FrameJob& job) { return (job.rgb ? DVR_FEATURE_RGB : 0) | (job.full ? DVR_FEATURE_FULL : 0); }
 
-struct Modules {
-  ModuleFrame sampler, estimator, march;
-  int width, columns;
-};
+}  // namespace
+
+FrameModules::FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder,
+                           ModuleCache& modules)
+    : FrameModules(job, modules.get(job.sampler.folder, job.sampler.plugin, isa),
+                   modules.get(job.estimator.folder, job.estimator.plugin, isa), modules.get(march_folder, "march", isa),
+                   Bindings()) {}
+
+FrameModules::FrameModules(const FrameJob& job, const dvr_kernel_module* sampler_module,
+                           const dvr_kernel_module* estimator_module, const dvr_kernel_module* march_module,
+                           Bindings bindings)
+    : sampler(sampler_module, view_of(job, bindings), features_of(job)),
+      estimator(estimator_module, bindings.view(), features_of(job)),
+      march(march_module, bindings.view(), features_of(job)),
+      width(march_module->width),
+      columns(march_module->packet_columns) {}
+
+namespace {
 
 struct Rect {
   int x0, y0, x1, y1;
 };
 
-void render_packet(const Modules& m, int x, int y, dvr_packet& packet, dvr_chunk& chunk, const FrameJob& job,
+void render_packet(const FrameModules& m, int x, int y, dvr_packet& packet, dvr_chunk& chunk, const FrameJob& job,
                    FrameResult& result, FrameCounters& counters) {
   m.march.calls().march.begin(m.march.state(), x, y, &packet);
   m.sampler.calls().sampler.start(m.sampler.state(), &packet);
@@ -62,7 +74,7 @@ void render_packet(const Modules& m, int x, int y, dvr_packet& packet, dvr_chunk
   }
 }
 
-void render_tile(const Modules& m, const Rect& r, const FrameJob& job, FrameResult& result, FrameCounters& counters) {
+void render_tile(const FrameModules& m, const Rect& r, const FrameJob& job, FrameResult& result, FrameCounters& counters) {
   const FlushDenormals flush;
   dvr_packet packet{};
   dvr_chunk chunk{};
@@ -81,16 +93,7 @@ double cpu_seconds() {
 
 void render_tiles(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules,
                   const TileOptions& options, FrameResult& result) {
-  Bindings bindings;
-  for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) bindings.add(*unit);
-  const int features = (job.rgb ? DVR_FEATURE_RGB : 0) | (job.full ? DVR_FEATURE_FULL : 0);
-  const dvr_kernel_module* sampler = modules.get(job.sampler.folder, job.sampler.plugin, isa);
-  const dvr_kernel_module* estimator = modules.get(job.estimator.folder, job.estimator.plugin, isa);
-  const dvr_kernel_module* march = modules.get(march_folder, "march", isa);
-  const dvr_bindings view = bindings.view();
-  const Modules m{ModuleFrame(sampler, view, features), ModuleFrame(estimator, view, features),
-                  ModuleFrame(march, view, features), march->width, march->packet_columns};
-
+  const FrameModules m(job, isa, march_folder, modules);
   result.image.width = job.width;
   result.image.height = job.height;
   const std::size_t values = 3 * std::size_t(job.width) * std::size_t(job.height);

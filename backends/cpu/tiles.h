@@ -13,6 +13,29 @@ struct TileOptions {
   int tile = 16;    // pixels
 };
 
+/// The modules of a job with their state for this frame.
+struct FrameModules {
+  ModuleFrame sampler, estimator, march;
+  int width, columns;  // lanes of a packet, pixels of a packet in x
+  FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules);
+
+ private:
+  FrameModules(const FrameJob& job, const dvr_kernel_module* sampler_module, const dvr_kernel_module* estimator_module,
+               const dvr_kernel_module* march_module, Bindings bindings);
+};
+
+/// The same treatment of denormal numbers on every thread (flush both), whatever the caller had.
+class FlushDenormals {
+ public:
+  FlushDenormals();
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
 void render_tiles(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules,
                   const TileOptions& options, FrameResult& result);
 

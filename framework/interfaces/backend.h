@@ -2,6 +2,7 @@
 // file formats or the config.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -57,6 +58,16 @@ struct DeviceInfo {
   std::string detail;  // instruction set and threads; or the limits that were used
 };
 
+/// One segment of a probed ray, as the estimator saw it and what it made of it.
+struct ProbeSegment {
+  int index = 0;
+  double s = 0;       // arc length from the entry point to the sample: the centre, or with `ends` the back end
+  double length = 0;  // world units
+  double value = 0;   // stored value there
+  std::array<double, 3> color{}, trans{};                // of the segment: radiance and transmittance
+  std::array<double, 3> color_behind{}, trans_behind{};  // of the ray, after this segment; without background
+};
+
 /// A backend that is ready to render: device open, options fixed. Used by one thread.
 class BackendSession {
  public:
@@ -66,6 +77,9 @@ class BackendSession {
   virtual std::uint64_t bytes_needed(const FrameJob& job) const = 0;
   /// Uploads and compiles what changed since the last call, renders, blocks until done.
   virtual void render(const FrameJob& job, FrameResult& result) = 0;
+  /// Every composited segment of the ray of pixel (x, y). Backends without it throw NotSupported: the cpu has it, and
+  /// all backends march the same bits.
+  virtual std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y);
 };
 
 class BackendPlugin : public Plugin {

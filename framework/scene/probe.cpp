@@ -1,0 +1,25 @@
+#include "framework/scene/probe.h"
+
+#include <nlohmann/json.hpp>
+
+#include "framework/interfaces/error.h"
+
+namespace dvrlab {
+
+std::vector<ProbeSegment> BackendSession::probe(const FrameJob&, int, int) {
+  throw NotSupported("backend " + device().api + ": no probe; probe with backend cpu, which marches the same bits");
+}
+
+std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y) {
+  if (x < 0 || y < 0 || x >= scene.job.width || y >= scene.job.height)
+    throw InputError("--pixel: " + std::to_string(x) + "," + std::to_string(y) + " is outside the image of " +
+                     std::to_string(scene.job.width) + " x " + std::to_string(scene.job.height) + " pixels");
+  const PluginEntryInfo& cpu = registry.find("backend", "cpu");
+  nlohmann::json values = nlohmann::json::object();
+  std::vector<Parameter> declared(cpu.descriptor->parameters, cpu.descriptor->parameters + cpu.descriptor->parameter_count);
+  for (const Parameter& p : declared) values[p.name] = nlohmann::json::parse(p.default_value);
+  const auto session = registry.get<BackendPlugin>("backend", "cpu").open(ParameterSet("backend", declared, values), cpu.folder);
+  return session->probe(scene.job, x, y);
+}
+
+}  // namespace dvrlab
