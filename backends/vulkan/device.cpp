@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "backends/vulkan/limits.h"
+
 namespace dvrlab {
 namespace {
 
@@ -26,7 +28,7 @@ void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags 
 }  // namespace
 
 VulkanDevice::VulkanDevice(const std::string& device, bool validation)
-    : instance_(validation), context_(instance_.choose(device)) {
+    : instance_(validation), context_(instance_.choose(device)), limits_(shader_limits(context_.physical())) {
   if (context_.timestamp_bits() == 0) return;
   VkQueryPoolCreateInfo queries{};
   queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
@@ -52,29 +54,10 @@ DeviceInfo VulkanDevice::info() const {
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   }
   info.api = "Vulkan " + version_text(properties.apiVersion);
-  info.detail = "storage buffers of " + std::to_string(limits().buffer_range) + " bytes, " +
-                std::to_string(limits().storage_buffers) + " at once; march timed by " +
+  info.detail = "storage buffers of " + std::to_string(limits_.buffer_range) + " bytes, " +
+                std::to_string(limits_.storage_buffers) + " at once; march timed by " +
                 (queries_ != VK_NULL_HANDLE ? "device timestamps" : "the wall clock");
   return info;
-}
-
-ShaderLimits VulkanDevice::limits() const {
-  constexpr std::uint32_t plenty = 1u << 20, uniform_blocks = 4;
-  const VkPhysicalDeviceLimits& limits = context_.properties().limits;
-  VkPhysicalDeviceMaintenance3Properties allocation{};
-  allocation.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
-  VkPhysicalDeviceProperties2 chain{};
-  chain.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  chain.pNext = &allocation;
-  vkGetPhysicalDeviceProperties2(context_.physical(), &chain);
-  ShaderLimits result;
-  result.target = ShaderTarget::vulkan;
-  result.buffer_range = std::min<std::uint64_t>(limits.maxStorageBufferRange, allocation.maxMemoryAllocationSize);
-  result.uniform_range = limits.maxUniformBufferRange;
-  result.storage_buffers =
-      int(std::min({limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers,
-                    limits.maxPerStageResources - uniform_blocks, plenty}));
-  return result;
 }
 
 std::uint64_t VulkanDevice::memory() const {

@@ -15,7 +15,7 @@ class VulkanDevice final : public GpuDevice {
   VulkanDevice(const std::string& device, bool validation);
   ~VulkanDevice() override;
   DeviceInfo info() const override;
-  ShaderLimits limits() const override;
+  ShaderLimits limits() const override { return limits_; }
   std::uint64_t memory() const override;
   bool shares_memory() const override;
   void begin_frame() override {}
@@ -34,6 +34,7 @@ class VulkanDevice final : public GpuDevice {
 
   VulkanInstance instance_;
   VulkanContext context_;
+  ShaderLimits limits_;
   std::unique_ptr<VulkanBuffer> staging_;
   std::unique_ptr<VulkanProgram> program_;
   VkQueryPool queries_ = VK_NULL_HANDLE;

@@ -14,7 +14,7 @@
 namespace dvrlab {
 namespace {
 
-constexpr const char* pass_version = "dvrlab-spirv-1";  // change it with what spirv.cpp adds to a module
+constexpr const char* pass_version = "dvrlab-spirv-2";  // change it with what spirv.cpp adds to a module
 
 /// "ERROR: 3:12: ..." -> "direct.kernel:12: error: ..."
 std::string with_file_names(const std::string& log, const std::vector<std::string>& sources) {
@@ -62,10 +62,12 @@ Spirv translate(const ComposedShader& shader) {
 
 std::string shader_hash(const ComposedShader& shader) {
   const glslang::Version version = glslang::GetVersion();
-  const std::string options = std::string(pass_version) +
-                              (shader.target == ShaderTarget::vulkan ? " vulkan" : " opengl") +
-                              (shader.fast ? " fast" : " strict") + " glslang " + std::to_string(version.major) + "." +
-                              std::to_string(version.minor) + "." + std::to_string(version.patch) + "\n";
+  std::string options = std::string(pass_version) + (shader.target == ShaderTarget::vulkan ? " vulkan" : " opengl") +
+                        (shader.fast ? " fast" : " strict");
+  for (const FloatMode mode : shader.float_modes)
+    options += " mode " + std::to_string(static_cast<std::uint32_t>(mode));
+  options += " glslang " + std::to_string(version.major) + "." + std::to_string(version.minor) + "." +
+             std::to_string(version.patch) + "\n";
   return sha256({std::as_bytes(std::span(options)), std::as_bytes(std::span(shader.text))});
 }
 
@@ -86,6 +88,7 @@ CompiledShader compile_shader(const ComposedShader& shader) {
   if (!shader.fast) {
     check_strict(compiled.spirv);
     add_no_contraction(compiled.spirv);
+    add_float_modes(compiled.spirv, shader.float_modes);
   }
   cache.write(name, std::as_bytes(std::span(compiled.spirv)));
   return compiled;

@@ -16,8 +16,9 @@ struct CompiledShader {
 /// The cache's key of a shader: equal keys, equal SPIR-V.
 std::string shader_hash(const ComposedShader& shader);
 
-/// SPIR-V 1.3 for Vulkan 1.1, or 1.0 for GL_ARB_gl_spirv. Strict shaders are checked and decorated (spirv.h).
-/// Throws std::runtime_error with the compiler's messages, file names and lines of the kernel texts.
+/// SPIR-V 1.3 for Vulkan 1.1, or 1.0 for GL_ARB_gl_spirv. Strict shaders are
+/// checked and decorated (spirv.h). Throws std::runtime_error with the compiler's messages, file names and lines of the
+/// kernel texts.
 CompiledShader compile_shader(const ComposedShader& shader);
 
 }  // namespace dvrlab

@@ -79,6 +79,7 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   ComposedShader shader;
   shader.target = limits.target;
   shader.fast = job.fast;
+  if (!job.fast) shader.float_modes = limits.float_modes;
   shader.band.name = "dvr_band";
 
   const std::vector<Uniform> band{Uniform::integer("frame_band_y", 0), Uniform::integer("frame_width", job.width),

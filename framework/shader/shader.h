@@ -14,12 +14,21 @@ namespace dvrlab {
 /// The flavour of SPIR-V. Vulkan numbers all bindings in one space, OpenGL each kind of resource in its own.
 enum class ShaderTarget { vulkan, opengl };
 
-/// What a device can bind.
+/// What a strict shader asks of a device's arithmetic, where the device offers it (SPV_KHR_float_controls). The
+/// values are SPIR-V's execution modes.
+enum class FloatMode : std::uint32_t {
+  denorm_preserve = 4459,
+  signed_zero_inf_nan_preserve = 4461,
+  rounding_rte = 4462
+};
+
+/// What a device can bind, and the float modes that it offers for 32 bits.
 struct ShaderLimits {
   ShaderTarget target = ShaderTarget::vulkan;
   std::uint64_t buffer_range = 0;   // bytes of one storage buffer
   std::uint64_t uniform_range = 0;  // bytes of one uniform block
   int storage_buffers = 0;          // of the compute stage
+  std::vector<FloatMode> float_modes;
 };
 
 /// A std140 block. `bytes` holds the job's values.
@@ -54,6 +63,7 @@ struct ComposedShader {
   static constexpr int workgroup = 8;  // pixels in x and in y
   ShaderTarget target = ShaderTarget::vulkan;
   bool fast = false;
+  std::vector<FloatMode> float_modes;  // empty when fast
   std::string text;
   std::vector<std::string> sources;  // the file of `#line`'s source number
   UniformBlock band;                 // frame_band_y, frame_width, frame_height: the backend's own

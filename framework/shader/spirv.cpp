@@ -15,7 +15,13 @@ namespace {
 enum Op : std::uint32_t {
   OpName = 5,
   OpMemberName = 6,
+  OpExtension = 10,
+  OpExtInstImport = 11,
   OpExtInst = 12,
+  OpMemoryModel = 14,
+  OpEntryPoint = 15,
+  OpExecutionMode = 16,
+  OpCapability = 17,
   OpDecorate = 71,
   OpMemberDecorate = 72,
   OpTypeVoid = 19,
@@ -111,6 +117,33 @@ void add_no_contraction(Spirv& module) {
   for (const std::uint32_t id : results)
     if (done.insert(id).second) added.insert(added.end(), {3u << 16 | OpDecorate, id, decoration_no_contraction});
   module.insert(module.begin() + std::ptrdiff_t(place), added.begin(), added.end());
+}
+
+void add_float_modes(Spirv& module, const std::vector<FloatMode>& modes) {
+  if (modes.empty()) return;
+  std::size_t imports = 0,
+              after_entry = 0;  // extensions come before the imports, execution modes after the entry point
+  std::uint32_t entry = 0;
+  for_each_instruction(module, [&](std::uint32_t op, std::span<const std::uint32_t> words) {
+    const auto place = std::size_t(words.data() - module.data());
+    if (imports == 0 && (op == OpExtInstImport || op == OpMemoryModel)) imports = place;
+    if (op == OpEntryPoint) entry = words[2], after_entry = place + words.size();
+  });
+  // A mode's capability has a number five above its own.
+  constexpr std::uint32_t capability_of_mode = 5, float_bits = 32;
+  constexpr char extension[] = "SPV_KHR_float_controls";
+  Spirv declared, chosen;
+  for (const FloatMode mode : modes) {
+    const auto number = static_cast<std::uint32_t>(mode);
+    declared.insert(declared.end(), {2u << 16 | OpCapability, number + capability_of_mode});
+    chosen.insert(chosen.end(), {4u << 16 | OpExecutionMode, entry, number, float_bits});
+  }
+  Spirv name((sizeof(extension) + 3) / 4);
+  std::memcpy(name.data(), extension, sizeof(extension));
+  declared.push_back(std::uint32_t(name.size() + 1) << 16 | OpExtension);
+  declared.insert(declared.end(), name.begin(), name.end());
+  module.insert(module.begin() + std::ptrdiff_t(after_entry), chosen.begin(), chosen.end());
+  module.insert(module.begin() + std::ptrdiff_t(imports), declared.begin(), declared.end());
 }
 
 void check_strict(const Spirv& module) {

@@ -89,6 +89,6 @@ Buffer make_buffer(const std::string& name, Element element, std::uint64_t count
   return buffer;
 }
 
-ShaderLimits roomy_limits(ShaderTarget target) { return {target, 1u << 27, 1u << 16, 16}; }
+ShaderLimits roomy_limits(ShaderTarget target) { return {target, 1u << 27, 1u << 16, 16, {}}; }
 
 }  // namespace dvrlab::gpu_test

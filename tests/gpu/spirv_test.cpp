@@ -82,6 +82,19 @@ TEST(NoContraction, FastShadersMayContract) {
   EXPECT_TRUE(found.decorated.empty());
 }
 
+TEST(FloatModes, AreAskedForOnceInTheirPlaces) {
+  Spirv module = compile(arithmetic_body).spirv;
+  const std::size_t before = module.size();
+  add_float_modes(module, {FloatMode::denorm_preserve, FloatMode::signed_zero_inf_nan_preserve});
+  std::vector<std::uint32_t> order;
+  for (std::size_t at = 5; at < module.size(); at += module[at] >> 16) order.push_back(module[at] & 0xffff);
+  // Capability, extension, import, memory model, entry point, execution mode: the order that SPIR-V prescribes.
+  const std::vector<std::uint32_t> expected{17, 17, 17, 10, 11, 14, 15, 16, 16, 16};
+  ASSERT_GE(order.size(), expected.size());
+  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), order.begin()));
+  EXPECT_EQ(module.size(), before + 2 * 2 + 7 + 2 * 4);
+}
+
 TEST(Strict, RefusesWhatDiffersBetweenDevicesByName) {
   const std::pair<const char*, const char*> faults[] = {{"a.x = exp(u);", "exp"},
                                                         {"a.x = log(u);", "log"},
