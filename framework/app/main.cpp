@@ -65,6 +65,13 @@ int run_command_line(int argc, char** argv) {
   compare->add_option("--tolerance", o.tolerance, "largest absolute difference that counts as equal; 0: every bit")
       ->check(CLI::NonNegativeNumber);
 
+  CLI::App* probe = add("probe", "list every segment of the ray through one pixel", dvrlab::probe_verb);
+  config_options(*probe, o);
+  probe->add_option("--pixel", o.pixel, "X,Y from the top left, counted from 0")
+      ->required()
+      ->delimiter(',')
+      ->expected(2);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -1,0 +1,67 @@
+#include <cstdio>
+
+#include "framework/app/single_case.h"
+#include "framework/app/verbs.h"
+#include "framework/render_case.h"
+#include "framework/report/pretty_json.h"
+#include "framework/report/text_table.h"
+#include "framework/scene/probe.h"
+
+namespace dvrlab {
+namespace {
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", x);
+  return text;
+}
+
+std::string triple(const std::array<double, 3>& v) { return number(v[0]) + " " + number(v[1]) + " " + number(v[2]); }
+
+std::string table_of(const std::vector<ProbeSegment>& segments, const Field& field) {
+  std::vector<std::vector<std::string>> rows = {{"segment", "arc length", "length", "value", "radiance r g b",
+                                                 "transmittance r g b", "ray: radiance so far",
+                                                 "ray: transmittance so far"}};
+  for (const ProbeSegment& q : segments) {
+    rows.push_back({std::to_string(q.index), number(q.s), number(q.length),
+                    number(field.slope * q.value + field.intercept), triple(q.color), triple(q.trans),
+                    triple(q.color_behind), triple(q.trans_behind)});
+  }
+  return text_table(rows);
+}
+
+nlohmann::ordered_json json_of(const std::vector<ProbeSegment>& segments, const Field& field) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ProbeSegment& q : segments) {
+    list.push_back({{"segment", q.index},
+                    {"arc_length", q.s},
+                    {"length", q.length},
+                    {"value", field.slope * q.value + field.intercept},
+                    {"radiance", q.color},
+                    {"transmittance", q.trans},
+                    {"ray_radiance", q.color_behind},
+                    {"ray_transmittance", q.trans_behind}});
+  }
+  return list;
+}
+
+}  // namespace
+
+int probe_verb(const Options& o) {
+  const Registry registry(o.plugin_path);
+  const PlannedCase planned = single_case(o, registry);
+  CaseRecord record;
+  record.plan = &planned;
+  CaseRenderer renderer(registry);
+  const Scene& scene = renderer.scene(planned.resolved, record);
+  const std::vector<ProbeSegment> segments = probe_ray(scene, registry, o.pixel.at(0), o.pixel.at(1));
+  std::fputs(
+      o.json ? (pretty_json(json_of(segments, *scene.field)) + "\n").c_str() : table_of(segments, *scene.field).c_str(),
+      stdout);
+  if (segments.empty())
+    std::fprintf(stderr, "backend: the ray of pixel %d,%d has no segment: it misses the data, or all of it is empty\n",
+                 o.pixel[0], o.pixel[1]);
+  return 0;
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,166 @@
+// A whole run: results tree, verdicts, exit codes; then the same through the command line.
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "framework/image/image_io.h"
+#include "framework/metric/measure.h"
+#include "framework/pipeline.h"
+#include "framework/report/judge.h"
+#include "framework/report/pretty_json.h"
+#include "tests/front/front_test.h"
+
+namespace dvrlab::front {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+class Run : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = testing::TempDir() + "/dvrlab_run_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  RunSummary run(const std::string& config) {
+    std::ofstream(folder_ + "/small.json") << config;
+    return run_experiment({folder_ + "/small.json", {}, {}, folder_ + "/out"});
+  }
+  /// Exit code of the program; its output goes to `printed_`.
+  int command(const std::string& arguments) {
+    const std::string line = std::string(DVRLAB_PROGRAM) + " " + arguments + " >'" + folder_ + "/printed' 2>&1";
+    const int status = std::system(line.c_str());
+    printed_ = text_of(folder_ + "/printed");
+    return WEXITSTATUS(status);
+  }
+  std::string folder_, printed_;
+};
+
+const std::string variants = R"(, "axes": {"variant": {"backend.isa": ["scalar", "auto"]}})";
+
+TEST_F(Run, WritesTheTreeAndRunsAgainFromIt) {
+  const RunSummary s = run(
+      small_config(R"(, "metrics": ["rmse"], "repeat": 3, "reference": {"fine": {"sampling.step": 0.25}})" + variants));
+  ASSERT_EQ(s.records.size(), 3u);
+  EXPECT_EQ(exit_code(s), 0) << summary_text(s);
+  const std::string first = folder_ + "/out/small/cases/backend.isa=scalar";
+  for (const char* file : {"case.json", "image.exr", "image.png"}) EXPECT_TRUE(fs::exists(first + "/" + file)) << file;
+  const nlohmann::ordered_json record = nlohmann::ordered_json::parse(text_of(first + "/case.json"));
+  std::vector<std::string> sections;
+  for (const auto& [key, value] : record.items()) sections.push_back(key);
+  EXPECT_EQ(sections,
+            (std::vector<std::string>{"config", "plugins", "scene", "backend", "image", "metrics", "report"}));
+  EXPECT_GT(record["backend"]["counters"]["samples"].get<int>(), 0);
+  EXPECT_EQ(record["backend"]["repeats"], 3);
+  EXPECT_TRUE(record["backend"]["times"]["march"].contains("interquartile_range_s"));
+  EXPECT_TRUE(record["metrics"]["against"]["fine"].contains("rmse"));
+  EXPECT_FALSE(record["scene"]["sha256"].get<std::string>().empty());
+  ASSERT_TRUE(s.records[2].variant.has_value());
+  EXPECT_EQ(s.records[2].variant->max_abs, 0.0);
+  const std::string table = text_of(folder_ + "/out/small/results.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
+
+  const RunSummary again = run_experiment({first + "/case.json", {}, {}, folder_ + "/again"});
+  const FrameImage a = read_exr(first + "/image.exr"), b = read_exr(again.folder + "/cases/case/image.exr");
+  EXPECT_EQ(compare_bits(a, b).different, 0u);
+}
+
+TEST_F(Run, ExpectationsDecideTheExitCode) {
+  const std::string with = R"(, "metrics": ["rmse"], "reference": {"fine": {"sampling.step": 0.0625}},
+    "axes": {"permutation": {"sampling.step": [2, 1, 0.5]}}, "expect": [{"metric": "rmse", "against": "fine", )";
+  EXPECT_EQ(exit_code(run(small_config(with + R"("at_most": 1}])"))), 0);
+  const RunSummary failed = run(small_config(with + R"("at_most": 0, "where": {"sampling.step": 2}}])"));
+  EXPECT_EQ(exit_code(failed), 1);
+  expect_words(summary_text(failed), {"fail: expected rmse against fine <= 0", "found 0."});
+  EXPECT_EQ(exit_code(run(small_config(with + R"("order": {"by": "sampling.step", "is": "increasing"}}])"))), 0);
+  EXPECT_EQ(exit_code(run(small_config(with + R"("order": {"by": "sampling.step", "is": "decreasing"}}])"))), 1);
+}
+
+TEST_F(Run, WhatCannotRunIsCountedAndDoesNotLoseTheOthers) {
+  const RunSummary s = run(small_config(R"(, "axes": {"permutation": {"limits.memory": [1, null]}})"));
+  ASSERT_EQ(s.records.size(), 2u);
+  EXPECT_EQ(s.records[0].verdict, Verdict::not_supported);
+  expect_words(s.records[0].reason, {"limits.memory allows"});
+  EXPECT_EQ(s.records[1].verdict, Verdict::pass);
+  EXPECT_EQ(exit_code(s), 0) << "not supported is a verdict, not a failure";
+  EXPECT_TRUE(fs::exists(folder_ + "/out/small/cases/limits.memory=1/case.json"));
+  EXPECT_EQ(exit_code(run(small_config(R"(, "limits": {"memory": 1})"))), 3) << "nothing could run";
+}
+
+TEST_F(Run, OptionalDataThatIsMissing) {
+  const std::string missing = R"("data": {"type": "nrrd", "file": "none.nrrd", "optional": )";
+  const std::string start = small_config().substr(0, small_config().find("\"data\"")),
+                    rest = small_config().substr(small_config().find("\"optical_model\""));
+  const RunSummary s = run(start + missing + "true}," + rest);
+  EXPECT_EQ(s.records.at(0).verdict, Verdict::not_supported);
+  expect_words(s.records[0].reason, {"data.file", "none.nrrd"});
+  EXPECT_THROW(run(start + missing + "false}," + rest), InputError);
+}
+
+TEST(CompareBits, FindsWhatDiffers) {
+  const FrameImage a{1, 1, {0, 0.5f, 1}, {1, 1, 1}};
+  FrameImage b = a;
+  EXPECT_EQ(compare_bits(a, b).different, 0u);
+  b.color[1] = 0.5000001f;
+  EXPECT_EQ(compare_bits(a, b).different, 1u);
+  EXPECT_GT(compare_bits(a, b).max_abs, 0.0);
+  b = a;
+  b.color[0] = -0.0f;
+  EXPECT_EQ(compare_bits(a, b).different, 1u) << "another bit, no difference";
+  EXPECT_EQ(compare_bits(a, b).max_abs, 0.0);
+  b.trans[0] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isinf(compare_bits(a, b).max_abs));
+}
+
+TEST(Statistics, MedianAndInterquartileRange) {
+  const auto s = phase_statistics(
+      {{{"march", 1, 2}}, {{"march", 2, 2}}, {{"march", 3, 2}}, {{"march", 10, -1}}, {{"march", 4, 2}}});
+  ASSERT_EQ(s.size(), 1u);
+  EXPECT_EQ(s[0].median, 3.0);
+  EXPECT_EQ(s[0].interquartile_range, 2.0);
+  EXPECT_LT(s[0].cpu_median, 0.0) << "not measured in every repeat";
+}
+
+TEST(PrettyJson, IsTheSameValue) {
+  const auto value =
+      nlohmann::ordered_json::parse(R"({"b": [1, 2.5], "a": {"x": [[0, 1], []], "y": {}}, "t": "a\"b"})");
+  EXPECT_EQ(nlohmann::ordered_json::parse(pretty_json(value)), value);
+}
+
+TEST_F(Run, CommandLine) {
+  std::ofstream(folder_ + "/small.json") << small_config();
+  const std::string config = "'" + folder_ + "/small.json'";
+  EXPECT_EQ(command("list"), 0);
+  expect_words(printed_, {"estimator", "direct", "perspective"});
+  EXPECT_EQ(command("list estimater"), 2);
+  expect_words(printed_, {"did you mean 'estimator'?"});
+  EXPECT_EQ(command("describe camera.perspective"), 0);
+  expect_words(printed_, {"fov_deg", "degree", "(0,180)"});
+  EXPECT_EQ(command("describe dirct"), 2);
+  EXPECT_EQ(command("validate " + config), 0);
+  EXPECT_EQ(command("validate " + config + " --set sampling.step=-1"), 2);
+  EXPECT_EQ(command("render " + config + " -o '" + folder_ + "/a.exr'"), 0) << printed_;
+  EXPECT_EQ(command("render " + config + " --set sampling.step=0.5 -o '" + folder_ + "/b.exr'"), 0);
+  EXPECT_EQ(command("render " + config + " -o '" + folder_ + "/b.gif'"), 2);
+  EXPECT_EQ(command("render " + config + " --set 'limits.memory=1' -o '" + folder_ + "/c.exr'"), 3);
+  EXPECT_EQ(command("compare '" + folder_ + "/a.exr' '" + folder_ + "/a.exr'"), 0);
+  EXPECT_EQ(command("compare '" + folder_ + "/a.exr' '" + folder_ + "/b.exr'"), 1);
+  EXPECT_EQ(command("compare --tolerance 1 '" + folder_ + "/a.exr' '" + folder_ + "/b.exr'"), 0);
+  EXPECT_EQ(command("run " + config + " --repeat 2 --out '" + folder_ + "/out'"), 0);
+  EXPECT_EQ(command("probe " + config + " --pixel 4,3"), 0) << printed_;
+  EXPECT_EQ(command("probe " + config + " --pixel 40,3"), 2);
+  EXPECT_EQ(command("nonsense"), 2);
+  EXPECT_EQ(command(""), 2);
+}
+
+}  // namespace
+}  // namespace dvrlab::front
