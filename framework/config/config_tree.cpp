@@ -77,11 +77,8 @@ std::string ConfigTree::where(const std::string& path) const {
 }
 
 std::string ConfigTree::where_key(const std::string& path) const {
-  const auto found = places_.find(path);
-  if (found == places_.end() || found->second.path.empty() || found->second.path.back() != ']') return where(path);
-  Place place = found->second;
-  place.path = parent_path(place.path);
-  return text_of(place, place.path);
+  const auto found = key_places_.find(path);
+  return found == key_places_.end() ? where(path) : text_of(found->second, found->second.path);
 }
 
 void ConfigTree::erase_places(const std::string& path) {
@@ -94,7 +91,9 @@ void ConfigTree::erase_places(const std::string& path) {
 void ConfigTree::graft(const std::string& path, const ConfigJson& value, const ConfigTree& from,
                        const std::string& from_path) {
   ConfigJson* node = &root;
-  for (const std::string& step : split_path(path)) {
+  const std::vector<std::string> steps = split_path(path);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::string& step = steps[i];
     if (is_index(step)) {
       if (!node->is_array() || index_of(step) >= node->size()) {
         throw InputError(from.where(from_path) + ": there is no '" + path + "' to set: the list has no element " +
@@ -107,11 +106,18 @@ void ConfigTree::graft(const std::string& path, const ConfigJson& value, const C
         throw InputError(from.where(from_path) + ": there is no '" + path + "' to set: '" + step +
                          "' would lie in a plain value");
       }
+      if (i + 1 < steps.size() && is_index(steps[i + 1]) && !node->contains(step)) {
+        throw InputError(from.where(from_path) + ": there is no '" + path + "' to set: '" + step + "' was not written");
+      }
       node = &(*node)[step];
     }
   }
   *node = value;
   erase_places(path);
+  key_places_.erase(path);
+  if (!from_path.empty() && from_path.back() == ']') {
+    if (const Place* key = from.nearest(parent_path(from_path))) key_places_[path] = *key;
+  }
   const Place* place = from.nearest(from_path);
   if (place != nullptr) places_[path] = {place->file, place->line, place->column, from_path};
   for (auto it = from.places_.lower_bound(from_path); it != from.places_.end(); ++it) {

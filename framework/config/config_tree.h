@@ -51,6 +51,7 @@ class ConfigTree {
   const Place* nearest(std::string path) const;
   void erase_places(const std::string& path);
   std::map<std::string, Place> places_;
+  std::map<std::string, Place> key_places_;  // where the value is one of several that were written below the key
 };
 
 }  // namespace dvrlab

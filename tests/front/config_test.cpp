@@ -38,7 +38,7 @@ TEST(Config, ResolvedConfigIsAConfigOfTheSameCase) {
 TEST(Config, UnknownKeyNamesPlacePathNearestAndLegal) {
   expect_error(small_config(R"(, "sampling": {"stpe": 1})"),
                {"test.json:9:", "sampling.stpe", "did you mean 'step'?", "legal: jitter, skipping"});
-  expect_error(small_config(R"(, "sampler": 1)"), {"sampler", "did you mean 'sampling'?"});
+  expect_error(small_config(R"(, "samplng": 1)"), {"samplng", "did you mean 'sampling'?"});
 }
 
 TEST(Config, WrongValuesSayWhatWouldBeRight) {
