@@ -94,12 +94,16 @@ const Scene& CaseRenderer::scene(const ResolvedCase& c, CaseRecord& record) {
     std::shared_ptr<const Field> field = fields_.load(c, registry_);
     scene_ = std::make_unique<Scene>(build_scene(c, registry_, std::move(field)));
     scene_key_ = key;
-    log_line("scene", scene_->field->source);
+    say(scene_->field->source);
     scene_record_ = scene_section(*scene_, now() - start);
-    for (const auto& note : scene_record_["notes"]) log_line("scene", note.get<std::string>());
+    for (const auto& note : scene_record_["notes"]) say(note.get<std::string>());
   }
   record.scene = scene_record_;
   return *scene_;
+}
+
+void CaseRenderer::say(const std::string& note) {
+  if (said_.insert(note).second) log_line("scene", note);
 }
 
 BackendSession& CaseRenderer::session(const ResolvedCase& c) {

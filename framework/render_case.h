@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ class CaseRenderer {
 
  private:
   BackendSession& session(const ResolvedCase& c);
+  /// Logs what was not said before: cases share their notes.
+  void say(const std::string& note);
   /// Throws NotSupported when `needed` bytes are more than the case may use.
   void check_memory(const ResolvedCase& c, double needed, const std::string& what) const;
 
@@ -36,6 +39,7 @@ class CaseRenderer {
   std::string scene_key_;
   std::unique_ptr<Scene> scene_;
   nlohmann::json scene_record_;
+  std::set<std::string> said_;
   std::map<std::string, std::unique_ptr<BackendSession>> sessions_;  // by the resolved backend section
 };
 

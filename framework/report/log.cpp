@@ -27,19 +27,23 @@ void log_line(const char* stage, const std::string& text) {
   std::fprintf(stderr, "%s: %s\n", stage, text.c_str());
 }
 
-Progress::Progress(std::size_t total) : total_(total), start_(std::chrono::steady_clock::now()) {}
+Progress::Progress(std::size_t total) : total_(total), start_(std::chrono::steady_clock::now()), said_(start_) {}
 
 Progress::~Progress() { clear_progress(); }
 
 void Progress::show(std::size_t done, const std::string& name) {
-  if (!terminal()) return;
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal() && now - said_ < std::chrono::seconds(10)) return;
+  said_ = now;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
   char left[48] = "";
   if (done > 0) {
     const long seconds =
         static_cast<long>(elapsed / static_cast<double>(done) * static_cast<double>(total_ - done) + 0.5);
     std::snprintf(left, sizeof left, ", %ld:%02ld left", seconds / 60, seconds % 60);
   }
+  if (!terminal())
+    return log_line("report", std::to_string(done) + " of " + std::to_string(total_) + " cases done" + left);
   std::fprintf(stderr, "%s[%zu/%zu%s] %.60s", clear_line, done, total_, left, name.c_str());
   std::fflush(stderr);
   progress_shown = true;

@@ -10,8 +10,8 @@ namespace dvrlab {
 /// "scene: engine.nrrd ..." on stderr.
 void log_line(const char* stage, const std::string& text);
 
-/// One line at the bottom of the terminal: cases done, the one that runs, time left. Silent when stderr is no
-/// terminal.
+/// One line at the bottom of the terminal: cases done, the one that runs, time left. Where stderr is no terminal, a
+/// log line every ten seconds.
 class Progress {
  public:
   explicit Progress(std::size_t total);
@@ -23,7 +23,7 @@ class Progress {
 
  private:
   std::size_t total_;
-  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point start_, said_;
 };
 
 }  // namespace dvrlab

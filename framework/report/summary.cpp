@@ -14,6 +14,8 @@ std::string short_number(double x) {
   return text;
 }
 
+constexpr std::size_t most_rows = 100;
+
 std::size_t count(const RunSummary& s, Verdict v) {
   return static_cast<std::size_t>(
       std::count_if(s.records.begin(), s.records.end(), [&](const CaseRecord& r) { return r.verdict == v; }));
@@ -60,8 +62,10 @@ std::string summary_text(const RunSummary& s) {
     }
   };
   for (const CaseRecord& r : s.records) {
-    rows.push_back({r.plan->id, r.plan->resolved.backend.type, row_time(r), verdict_text(r.verdict),
-                    r.variant ? short_number(r.variant->max_abs) : "-"});
+    const bool shown = s.records.size() <= most_rows || r.verdict != Verdict::pass;
+    if (shown)
+      rows.push_back({r.plan->id, r.plan->resolved.backend.type, row_time(r), verdict_text(r.verdict),
+                      r.variant ? short_number(r.variant->max_abs) : "-"});
     bool said = false;
     for (const ExpectationResult& e : r.expectations) {
       say(std::string(verdict_text(e.verdict)) + ": expected " + e.text + ": " + e.reason, r.plan->id);
@@ -70,6 +74,7 @@ std::string summary_text(const RunSummary& s) {
     if (!r.reason.empty() && !said) say(std::string(verdict_text(r.verdict)) + ": " + r.reason, r.plan->id);
   }
   std::string text = text_table(rows);
+  if (s.records.size() > most_rows) text += "(cases that passed are not listed: see results.csv)\n";
   for (const auto& [what, ids] : reasons) {
     text.append(what).append(" [").append(ids.front());
     if (ids.size() > 1) text.append(" and ").append(std::to_string(ids.size() - 1)).append(" more");

@@ -22,8 +22,8 @@ struct RunSummary {
 /// was stopped. "Not supported" beside cases that ran is a counted verdict, not a failure.
 int exit_code(const RunSummary& summary);
 
-/// One row per case (case, backend, median of the march, verdict, largest difference to the first variant), the
-/// worst difference, the expectations and the count of every verdict.
+/// One row per case, of more than 100 only those that did not pass (case, backend, median of the march, verdict,
+/// largest difference to the first variant), the worst difference, the expectations and the count of every verdict.
 std::string summary_text(const RunSummary& summary);
 nlohmann::ordered_json summary_json(const RunSummary& summary);
 

@@ -106,6 +106,18 @@ TEST_F(Run, OptionalDataThatIsMissing) {
   EXPECT_THROW(run(start + missing + "false}," + rest), InputError);
 }
 
+TEST_F(Run, InterruptLeavesAValidTree) {
+  std::ofstream(folder_ + "/small.json") << small_config(
+      R"(, "axes": {"permutation": {"sampling.step": {"lin": [0.001, 0.002, 2000]}}})");
+  const std::string line = "timeout --preserve-status -s INT 2 " + std::string(DVRLAB_PROGRAM) + " run '" + folder_ +
+                           "/small.json' --out '" + folder_ + "/out' 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 3);
+  EXPECT_TRUE(fs::exists(folder_ + "/out/small/results.csv"));
+  for (const fs::directory_entry& c : fs::directory_iterator(folder_ + "/out/small/cases")) {
+    EXPECT_TRUE(nlohmann::json::accept(text_of(c.path().string() + "/case.json"))) << c.path();
+  }
+}
+
 TEST(CompareBits, FindsWhatDiffers) {
   const FrameImage a{1, 1, {0, 0.5f, 1}, {1, 1, 1}};
   FrameImage b = a;
