@@ -16,6 +16,8 @@ struct EstimatorDeclaration {
   bool fixed_length = false;
   /// `centre`: also needs v_prev and v_next (for |dv| terms).
   bool neighbours = false;
+  /// The kernel integrates the transfer functions' intervals (medium_interval_at): a medium with tf "nodes" only.
+  bool needs_nodes = false;
   /// The terms that it can integrate, Terms::bit(...) | ...
   unsigned handles = 0;
 };

@@ -42,6 +42,9 @@ void refuse_impossible(const ResolvedCase& c, const Medium& medium, const Estima
     throw InputError("estimator.type: estimator \"" + c.estimator.type + "\" cannot integrate the terms " +
                      missing.text() + " of optical model \"" + c.optical_model.type +
                      "\"; choose another estimator (dvrlab list estimator) or remove these terms");
+  if (d.needs_nodes && c.optical_model.parameters.text("tf") != "nodes")
+    throw InputError("estimator.type: estimator \"" + c.estimator.type +
+                     "\" integrates between the transfer functions' nodes; set optical_model.tf to \"nodes\"");
 }
 
 MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
