@@ -8,17 +8,20 @@ namespace {
 using namespace dvrlab;
 using enum ParameterType;
 
-#define END_PARAMETER(name, value, what) \
-  {name, vector3, "", value, "[0,inf)", what, Affects::pixels, "", "[0.3,0.6,0.9]"}
+// m acts on the unshaded source P only: its liveness is shown with an unshaded model.
+#define UNSHADED R"({"optical_model":{"shaded":false}})"
+#define END_PARAMETER(name, value, what, live_in) \
+  {name, vector3, "", value, "[0,inf)", what, Affects::pixels, live_in, "[0.3,0.6,0.9]"}
 const Parameter parameters[] = {
-    END_PARAMETER("m0", "[1,1,1]", "m (factor of P) where the ray enters."),
-    END_PARAMETER("m1", "[1,1,1]", "m where the ray leaves."),
-    END_PARAMETER("k0", "[1,1,1]", "k (factor of S) where the ray enters."),
-    END_PARAMETER("k1", "[1,1,1]", "k where the ray leaves."),
-    END_PARAMETER("b0", "[0,0,0]", "b (factor of W) where the ray enters."),
-    END_PARAMETER("b1", "[0,0,0]", "b where the ray leaves."),
+    END_PARAMETER("m0", "[1,1,1]", "m (factor of P) where the ray enters.", UNSHADED),
+    END_PARAMETER("m1", "[1,1,1]", "m where the ray leaves.", UNSHADED),
+    END_PARAMETER("k0", "[1,1,1]", "k (factor of S) where the ray enters.", ""),
+    END_PARAMETER("k1", "[1,1,1]", "k where the ray leaves.", ""),
+    END_PARAMETER("b0", "[0,0,0]", "b (factor of W) where the ray enters.", ""),
+    END_PARAMETER("b1", "[0,0,0]", "b where the ray leaves.", ""),
 };
 #undef END_PARAMETER
+#undef UNSHADED
 
 class Prescribed : public IlluminationPlugin {
  public:

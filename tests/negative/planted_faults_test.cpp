@@ -1,0 +1,118 @@
+// Negative controls: a planted fault in the kernel text of one backend must break the agreement with the others.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "tests/support/render.h"
+
+namespace dvrlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json config() {
+  return {{"data", {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {24, 26, 22}}, {"voxel_type", "uint8"}}},
+          {"optical_model", {{"type", "absorption_emission"}, {"opacity", {{0, 0}, {0.4, 0.02}, {1, 0.4}}},
+                             {"color", {{0, 0.2, 0.5, 1}, {1, 1, 0.6, 0.1}}}, {"length_unit", "voxel"}}},
+          {"estimator", {{"type", "direct"}}},
+          {"camera", {{"type", "perspective"}, {"position", {1.2, -2.0, 0.9}}, {"up", {0, 0, 1}}}},
+          {"sampling", {{"type", "uniform"}, {"step", 0.61}}},
+          {"image", {{"size", {48, 40}}}}};
+}
+
+/// A copy of a kernel folder in which `from` in `file` became `to`.
+class FaultyFolder {
+ public:
+  FaultyFolder(const std::string& folder, const std::string& file, const std::string& from, const std::string& to)
+      : path_(fs::temp_directory_path() / ("dvrlab_fault_" + std::to_string(::getpid()) + "_" + file)) {
+    fs::remove_all(path_);
+    fs::copy(folder, path_, fs::copy_options::recursive);
+    std::ifstream in(path_ / file);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) throw std::logic_error("the text to be spoilt is not in " + file + ": " + from);
+    text.replace(at, from.size(), to);
+    in.close();
+    std::ofstream(path_ / file) << text;
+  }
+  ~FaultyFolder() { fs::remove_all(path_); }
+  FaultyFolder(const FaultyFolder&) = delete;
+  FaultyFolder& operator=(const FaultyFolder&) = delete;
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+struct Fault {
+  std::string name, file, from, to;
+  bool in_sampler = false, fast = false;
+};
+
+void PrintTo(const Fault& f, std::ostream* out) { *out << f.name; }
+
+class PlantedFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(PlantedFault, IsCaught) {
+  const Fault& fault = GetParam();
+  const Target cpu{"cpu", {{"type", "cpu"}}}, vulkan{"vulkan", {{"type", "vulkan"}}};
+  try {
+    const FrameImage right = render(config(), cpu).image;
+    const FrameImage same = render(config(), vulkan).image;
+    ASSERT_EQ(differing_values(right, same), 0u) << "without a fault the backends agree";
+    std::unique_ptr<FaultyFolder> folder;
+    const FrameImage wrong = render(config(), vulkan, [&](FrameJob& job) {
+      std::string& place = fault.in_sampler ? job.sampler.folder : job.kernel_folder;
+      folder = std::make_unique<FaultyFolder>(place, fault.file, fault.from, fault.to);
+      place = folder->path();
+      job.fast = fault.fast;
+    }).image;
+    std::printf("%s: largest difference %.3e in %zu values\n", fault.name.c_str(), largest_difference(right, wrong),
+                differing_values(right, wrong));
+    EXPECT_GT(differing_values(right, wrong), 0u);
+    EXPECT_GT(largest_difference(right, wrong), 0.0);
+  } catch (const NotSupported& reason) {
+    GTEST_SKIP() << "not supported: " << reason.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, PlantedFault,
+    testing::Values(
+        Fault{"wrong_step", "steps.kernel", "real s = rmax(to_real(i) * R(frame_step) - offset, R(0.0));",
+              "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
+        Fault{"last_segment_with_full_length", "steps.kernel", "return select(regular, R(frame_step), inner);",
+              "return R(frame_step);"},
+        Fault{"filter_weights_of_8_bits", "grid.kernel", "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
+              "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z - to_real(c.z));",
+              true},
+        Fault{"half_voxel_shift", "grid.kernel", "real x = rmin(rmax(p.x, R(0.0)), last.x);",
+              "real x = rmin(rmax(p.x + R(0.5), R(0.0)), last.x);", true},
+        // Contraction is only let through by precision "fast"; the agreement of strict images must see it.
+        Fault{"contracted_multiply_add", "grid.kernel", "{ return a + w * (b - a); }", "{ return fma(w, b - a, a); }", true,
+              true}),
+    [](const auto& instance) { return instance.param.name; });
+
+// The same multiply-add in strict mode does not even reach the device.
+TEST(PlantedFault, FmaIsRefusedInStrictMode) {
+  const Target vulkan{"vulkan", {{"type", "vulkan"}}};
+  try {
+    std::unique_ptr<FaultyFolder> folder;
+    EXPECT_THROW(render(config(), vulkan,
+                        [&](FrameJob& job) {
+                          folder = std::make_unique<FaultyFolder>(job.sampler.folder, "grid.kernel",
+                                                                  "{ return a + w * (b - a); }", "{ return fma(w, b - a, a); }");
+                          job.sampler.folder = folder->path();
+                        }),
+                 std::exception);
+  } catch (const NotSupported& reason) {
+    GTEST_SKIP() << "not supported: " << reason.what();
+  }
+}
+
+}  // namespace
+}  // namespace dvrlab::test
