@@ -9,25 +9,34 @@ set(DVRLAB_FLAGS_avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mprefer-vect
 # kernel's text sit in one function, which -fno-trapping-math lets the compiler if-convert.
 set(DVRLAB_MODULE_FLAGS -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-gnu-unique -fno-exceptions
     -fno-rtti -fvisibility=hidden -fno-semantic-interposition -Wno-psabi
+    -Wno-unused-parameter # a kernel's text need not use all that its contract gives
     -Wno-maybe-uninitialized -Wno-uninitialized) # the last two: false alarms of g++ 12's own avx512 headers
 
-# dvrlab_add_kernel_modules(kind name kernel_file output_folder): sets DVRLAB_MODULE_TARGETS in the caller.
+# dvrlab_add_kernel_modules(kind name kernel_file output_folder [SUFFIX s] [FLAGS flag...]): sets
+# DVRLAB_MODULE_TARGETS in the caller. SUFFIX tells the targets of a second set from the first, built with more FLAGS.
 function(dvrlab_add_kernel_modules kind name kernel out)
+  cmake_parse_arguments(ARG "" "SUFFIX" "FLAGS" ${ARGN})
   set(targets "")
   set(has_voxels 0)
+  set(walking 0)
   if(kernel)
     file(STRINGS ${kernel} voxel_words REGEX "VOXELS\\(")
     if(voxel_words)
       set(has_voxels 1)
     endif()
+    # A sampler that defines walk_next goes from face to face; the others are asked at positions (docs/adr/0001).
+    file(STRINGS ${kernel} walk_words REGEX "walk_next\\(")
+    if(walk_words)
+      set(walking 1)
+    endif()
   endif()
   foreach(isa ${DVRLAB_ISAS})
     string(REPLACE "." "_" isa_id ${isa})
-    set(target dvrlab_${kind}_${name}_${isa_id})
+    set(target dvrlab_${kind}_${name}_${isa_id}${ARG_SUFFIX})
     add_library(${target} MODULE ${CMAKE_SOURCE_DIR}/framework/kernel/cpu/${kind}.module.cpp)
     target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
-    target_compile_definitions(${target} PRIVATE DVR_KERNEL_FILE="${kernel}" DVR_KERNEL_NAME="${name}" DVR_ISA_${isa_id}=1 DVR_HAS_VOXELS=${has_voxels})
-    target_compile_options(${target} PRIVATE ${DVRLAB_MODULE_FLAGS} ${DVRLAB_FLAGS_${isa}})
+    target_compile_definitions(${target} PRIVATE DVR_KERNEL_FILE="${kernel}" DVR_KERNEL_NAME="${name}" DVR_ISA_${isa_id}=1 DVR_HAS_VOXELS=${has_voxels} DVR_WALKING=${walking})
+    target_compile_options(${target} PRIVATE ${DVRLAB_MODULE_FLAGS} ${DVRLAB_FLAGS_${isa}} ${ARG_FLAGS})
     target_link_libraries(${target} PRIVATE dvrlab_warnings)
     target_link_options(${target} PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/framework/kernel/cpu/module.map -Wl,-z,defs)
     set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name}.${isa} LIBRARY_OUTPUT_DIRECTORY ${out})

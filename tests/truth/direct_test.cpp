@@ -84,7 +84,8 @@ TEST_P(Truth, HomogeneousMediumInClosedForm) {
     SKIP_WHEN_NOT_SUPPORTED({
       const double e = error(config, truth);
       std::printf("homogeneous, step %g: error %.2e\n", step, e);
-      EXPECT_LE(e, 2e-6) << "step " << step;
+      // Each segment rounds its transmittance and the product, both by half an ULP: N 2^-24 in all.
+      EXPECT_LE(e, std::max(2e-6, length / step / 16777216.0)) << "step " << step;
     })
   }
 }
