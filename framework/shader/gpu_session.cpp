@@ -66,8 +66,9 @@ std::uint64_t GpuSession::bytes_needed(const FrameJob& job) const {
 }
 
 bool GpuSession::same(const Resident& resident, const PagedBuffer& wanted) {
-  return resident.source.data == wanted.buffer.data && resident.source.count == wanted.buffer.count &&
-         resident.source.element == wanted.buffer.element && resident.page_elements == wanted.page_elements;
+  const std::shared_ptr<const void> source = resident.source.lock();
+  return source != nullptr && source == wanted.buffer.data && resident.count == wanted.buffer.count &&
+         resident.element == wanted.buffer.element && resident.page_elements == wanted.page_elements;
 }
 
 bool GpuSession::compile(const ComposedShader& shader) {
@@ -98,7 +99,7 @@ void GpuSession::upload(const ComposedShader& shader) {
   resident_ = std::move(kept);  // frees what is not needed any more before more is taken
   for (const PagedBuffer& paged : shader.buffers) {
     if (resident_.contains(paged.buffer.name)) continue;
-    Resident fresh{paged.buffer, paged.page_elements, {}};
+    Resident fresh{paged.buffer.data, paged.buffer.element, paged.buffer.count, paged.page_elements, {}};
     for (const BufferPage& page : paged.pages) {
       fresh.pages.push_back(device_->make_buffer(BufferUse::storage, page.allocated));
       device_->write(*fresh.pages.back(), static_cast<const std::byte*>(paged.buffer.data.get()) + page.offset,

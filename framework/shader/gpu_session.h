@@ -18,10 +18,13 @@ class GpuSession final : public BackendSession {
   void render(const FrameJob& job, FrameResult& result) override;
 
  private:
-  /// A buffer of the job on the device. Holds the job's memory, so that its address stays taken while we compare it.
+  /// A buffer of the job on the device. `source` knows the job's memory without keeping it: once that is freed, it
+  /// equals nothing, whatever takes its address next.
   struct Resident {
-    Buffer source;
-    std::uint64_t page_elements = 0;
+    std::weak_ptr<const void> source;
+    Element element;
+    std::uint64_t count;
+    std::uint64_t page_elements;
     std::vector<std::unique_ptr<GpuBuffer>> pages;
   };
   static bool same(const Resident& resident, const PagedBuffer& wanted);
