@@ -8,7 +8,9 @@ std::vector<ProbeSegment> probe_ray(const FrameJob& job, const std::string& isa,
                                     ModuleCache& modules, int x, int y) {
   const FrameModules m(job, isa, march_folder, modules);
   const FlushDenormals flush;
+  const WalkMemory walk(m);
   dvr_packet packet{};
+  packet.walk = walk.get();
   dvr_chunk chunk{};
   std::vector<ProbeSegment> segments;
   // Lane 0 of a packet that starts at the pixel.

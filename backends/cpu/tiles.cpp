@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 
 #include "backends/cpu/isa.h"
 
@@ -32,8 +33,8 @@ int features_of(const FrameJob& job) { return (job.rgb ? DVR_FEATURE_RGB : 0) | 
 FrameModules::FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder,
                            ModuleCache& modules)
     : FrameModules(job, modules.get(job.sampler.folder, job.sampler.plugin, isa),
-                   modules.get(job.estimator.folder, job.estimator.plugin, isa), modules.get(march_folder, "march", isa),
-                   Bindings()) {}
+                   modules.get(job.estimator.folder, job.estimator.plugin, isa),
+                   modules.get(march_folder, "march", isa), Bindings()) {}
 
 FrameModules::FrameModules(const FrameJob& job, const dvr_kernel_module* sampler_module,
                            const dvr_kernel_module* estimator_module, const dvr_kernel_module* march_module,
@@ -42,7 +43,12 @@ FrameModules::FrameModules(const FrameJob& job, const dvr_kernel_module* sampler
       estimator(estimator_module, bindings.view(), features_of(job)),
       march(march_module, bindings.view(), features_of(job)),
       width(march_module->width),
-      columns(march_module->packet_columns) {}
+      columns(march_module->packet_columns),
+      packet_bytes(sampler_module->packet_bytes) {}
+
+WalkMemory::WalkMemory(const FrameModules& modules)
+    : memory_(modules.packet_bytes == 0 ? nullptr : ::operator new(modules.packet_bytes, std::align_val_t(64))) {}
+WalkMemory::~WalkMemory() { ::operator delete(memory_, std::align_val_t(64)); }
 
 namespace {
 
@@ -74,9 +80,12 @@ void render_packet(const FrameModules& m, int x, int y, dvr_packet& packet, dvr_
   }
 }
 
-void render_tile(const FrameModules& m, const Rect& r, const FrameJob& job, FrameResult& result, FrameCounters& counters) {
+void render_tile(const FrameModules& m, const Rect& r, const FrameJob& job, FrameResult& result,
+                 FrameCounters& counters) {
   const FlushDenormals flush;
+  const WalkMemory walk(m);
   dvr_packet packet{};
+  packet.walk = walk.get();
   dvr_chunk chunk{};
   const int rows = m.width / m.columns;
   for (int y = r.y0; y < r.y1; y += rows)
@@ -110,15 +119,16 @@ void render_tiles(const FrameJob& job, const std::string& isa, const std::string
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1),
-                      [&](const tbb::blocked_range<int>& range) {
-                        for (int t = range.begin(); t < range.end(); ++t) {
-                          const int x = t % columns * tile, y = t / columns * tile;
-                          render_tile(m, {x, y, std::min(x + tile, job.width), std::min(y + tile, job.height)}, job,
-                                      result, counters.local());
-                        }
-                      },
-                      tbb::simple_partitioner());
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, columns * rows, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int t = range.begin(); t < range.end(); ++t) {
+            const int x = t % columns * tile, y = t / columns * tile;
+            render_tile(m, {x, y, std::min(x + tile, job.width), std::min(y + tile, job.height)}, job, result,
+                        counters.local());
+          }
+        },
+        tbb::simple_partitioner());
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   result.times.push_back({"march", seconds, cpu_seconds() - cpu});

@@ -16,12 +16,26 @@ struct TileOptions {
 /// The modules of a job with their state for this frame.
 struct FrameModules {
   ModuleFrame sampler, estimator, march;
-  int width, columns;  // lanes of a packet, pixels of a packet in x
+  int width, columns;     // lanes of a packet, pixels of a packet in x
+  unsigned packet_bytes;  // of dvr_packet::walk
   FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules);
 
  private:
   FrameModules(const FrameJob& job, const dvr_kernel_module* sampler_module, const dvr_kernel_module* estimator_module,
                const dvr_kernel_module* march_module, Bindings bindings);
+};
+
+/// The sampler's own memory of one packet.
+class WalkMemory {
+ public:
+  explicit WalkMemory(const FrameModules& modules);
+  ~WalkMemory();
+  WalkMemory(const WalkMemory&) = delete;
+  WalkMemory& operator=(const WalkMemory&) = delete;
+  void* get() const { return memory_; }
+
+ private:
+  void* memory_;
 };
 
 /// The same treatment of denormal numbers on every thread (flush both), whatever the caller had.

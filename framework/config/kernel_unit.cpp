@@ -1,6 +1,18 @@
 #include "framework/interfaces/kernel_unit.h"
 
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
 namespace dvrlab {
+
+bool walks(const KernelUnit& sampler) {
+  const std::string file = sampler.folder + "/" + sampler.plugin + ".kernel";
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read the kernel text " + file);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return text.find("walk_next(") != std::string::npos;
+}
 
 Uniform Uniform::real(std::string name, double value) {
   Uniform u;

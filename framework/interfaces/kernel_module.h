@@ -1,4 +1,4 @@
-/* The C ABI between the cpu backend and kernel modules (sampler, estimator, march), one shared library per
+/* The C ABI between the cpu backend and kernel modules (sampler, estimator, march, stage), one shared library per
  * instruction set. Plain C: a module neither allocates nor throws, and nothing but its entry point is visible.
  *
  * The three meet in a chunk that stays in the L1 cache: the sampler fills it, the estimator integrates each
@@ -6,9 +6,10 @@
 #ifndef DVRLAB_KERNEL_MODULE_H
 #define DVRLAB_KERNEL_MODULE_H
 
-#define DVR_KERNEL_ABI 1
+#define DVR_KERNEL_ABI 2
 #define DVR_CHUNK 8      /* segments per chunk */
 #define DVR_MAX_WIDTH 16 /* lanes of the widest instruction set */
+#define DVR_WALK_OPEN (1 << 30)
 
 enum { DVR_F32 = 0, DVR_I32 = 1, DVR_VEC4 = 2 };
 enum { DVR_ELEMENT_U8, DVR_ELEMENT_I8, DVR_ELEMENT_U16, DVR_ELEMENT_I16, DVR_ELEMENT_F32, DVR_ELEMENT_VEC4, DVR_ELEMENT_I32 };
@@ -45,10 +46,12 @@ typedef struct dvr_packet {
   int x[DVR_MAX_WIDTH], y[DVR_MAX_WIDTH];       /* pixel */
   float length[DVR_MAX_WIDTH];                  /* L: entry to exit */
   float offset[DVR_MAX_WIDTH];                  /* jitter: (1 - xi) * step, 0 without */
-  int n[DVR_MAX_WIDTH];                         /* number of segments; set to i when the ray has ended early */
+  int n[DVR_MAX_WIDTH];                         /* number of segments (a walking sampler: DVR_WALK_OPEN until it is
+                                                   known); set to i when the ray has ended early */
   int i[DVR_MAX_WIDTH];                         /* next segment */
   int skipped[DVR_MAX_WIDTH];                   /* segments that were skipped as empty */
   int carried;                                  /* 1: the last chunk's final rows serve the next (sampler's own) */
+  void* walk;                                   /* packet_bytes of the sampler's own, 64-byte aligned */
   float color[3][DVR_MAX_WIDTH];                /* accumulated radiance */
   float trans[3][DVR_MAX_WIDTH];                /* accumulated transmittance */
   int samples[DVR_MAX_WIDTH];                   /* segments that were composited */
@@ -56,7 +59,8 @@ typedef struct dvr_packet {
 } dvr_packet;
 
 /* Row r of s and v: `centre`: sample of segment i+r-1 (row 0 is the one before); `ends`: front end of segment
- * i+r. Two rows more than segments, so both v_prev/v/v_next and v0/v1 are rows k, k+1, k+2. */
+ * i+r. Two rows more than segments, so both v_prev/v/v_next and v0/v1 are rows k, k+1, k+2. A walking
+ * sampler has no neighbours for `centre`: only the middle one of the three rows is filled. */
 typedef struct dvr_chunk {
   alignas(64) float s[(DVR_CHUNK + 2) * DVR_MAX_WIDTH];
   float v[(DVR_CHUNK + 2) * DVR_MAX_WIDTH];
@@ -84,19 +88,26 @@ typedef struct dvr_march_calls {
   void (*finish)(const void* frame, dvr_packet* packet);
 } dvr_march_calls;
 
+typedef struct dvr_stage_calls {
+  /* Voxels (x0 .. x1-1, y, z) of the output volume, in order. */
+  void (*fill_row)(const void* frame, int x0, int x1, int y, int z, float* out);
+} dvr_stage_calls;
+
 typedef union dvr_calls {
   dvr_sampler_calls sampler;
   dvr_estimator_calls estimator;
   dvr_march_calls march;
+  dvr_stage_calls stage;
 } dvr_calls;
 
 typedef struct dvr_kernel_module {
   int abi;            /* DVR_KERNEL_ABI */
-  const char* kind;   /* sampler | estimator | march */
+  const char* kind;   /* sampler | estimator | march | stage */
   const char* name;
   int width;          /* lanes */
   int packet_columns; /* pixels of a packet in x; width / columns in y */
   unsigned frame_bytes, frame_align; /* memory that init() wants, the largest of its variants */
+  unsigned packet_bytes;             /* of dvr_packet::walk, 0 for none */
   /* Constructs the per-frame state in `frame` for the given DVR_* feature bits and names the functions that
    * work on it. Returns 0, or 1 and writes what the bindings lack to `missing` (128 bytes). */
   int (*init)(void* frame, const dvr_bindings* bindings, int features, dvr_calls* calls, char* missing);

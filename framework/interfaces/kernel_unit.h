@@ -48,6 +48,10 @@ struct KernelUnit {
   std::vector<Buffer> buffers;
 };
 
+/// True for a sampler whose kernel text defines walk_next: it goes from face to face (framework/kernel/walk.glsl)
+/// instead of being asked at positions. Throws std::runtime_error when the text cannot be read.
+bool walks(const KernelUnit& sampler);
+
 /// The numeric parameters of a plugin as uniforms `<plugin>_<name>`: numbers as f32, whole numbers, booleans and
 /// choices (their index) as i32, vectors as vec4. Texts, nodes and structures are left to the plugin.
 std::vector<Uniform> uniforms_of(const std::string& plugin, const ParameterSet& parameters);

@@ -32,7 +32,8 @@ Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxe
   context.value_min = value_min;
   context.value_max = value_max;
   context.notes = &notes;
-  return registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
+  return registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type")
+      .medium(p, context);
 }
 
 void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d) {
@@ -92,9 +93,10 @@ void add_skipping(bool wanted, const Field& field, const Medium& medium, const M
     dims = cells->dims;
     distance = empty_distance(*cells, OccupiedBins(medium, options));
   }
-  unit.uniforms.insert(unit.uniforms.end(),
-                       {Uniform::constant_integer("frame_skip", skip ? 1 : 0), Uniform::integer("frame_skip_nx", dims[0]),
-                        Uniform::integer("frame_skip_ny", dims[1]), Uniform::integer("frame_skip_nz", dims[2])});
+  unit.uniforms.insert(
+      unit.uniforms.end(),
+      {Uniform::constant_integer("frame_skip", skip ? 1 : 0), Uniform::integer("frame_skip_nx", dims[0]),
+       Uniform::integer("frame_skip_ny", dims[1]), Uniform::integer("frame_skip_nz", dims[2])});
   const std::uint64_t count = distance.size();
   unit.buffers.push_back(make_buffer("frame_skip_distance", Element::u8, std::move(distance), count));
 }
@@ -134,7 +136,8 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
     scene.notes.emplace_back(text);
   }
 
-  const double a = field->slope * field->stored_min + field->intercept, b = field->slope * field->stored_max + field->intercept;
+  const double a = field->slope * field->stored_min + field->intercept,
+               b = field->slope * field->stored_max + field->intercept;
   const Medium physical = model_medium(c, registry, field->voxel, std::min(a, b), std::max(a, b), scene.notes);
   scene.medium = physical.rescaled(field->slope, field->intercept);
   const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
@@ -178,6 +181,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.sampler = registry.get<SamplerPlugin>("sampler", field->sampler).bind(*field);
   job.sampler.plugin = field->sampler;
   job.sampler.folder = registry.find("sampler", field->sampler).folder;
+  if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
+    throw InputError("estimator.type: estimator \"" + c.estimator.type +
+                     "\" needs equally spaced samples, but sampler \"" + field->sampler +
+                     "\" ends its segments at the faces of cells; choose another estimator");
   job.estimator.plugin = c.estimator.type;
   job.estimator.folder = c.estimator.folder;
   job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);

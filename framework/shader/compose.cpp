@@ -13,7 +13,7 @@
 namespace dvrlab {
 namespace {
 
-/// The order of the texts. A part without a file is generated, or is the kernel of a plugin.
+/// The order of the texts. A part without a file is generated, is the kernel of a plugin, or the march.
 enum class From { framework, generated, sampler, estimator };
 struct Part {
   From from;
@@ -25,7 +25,7 @@ constexpr Part part_list[] = {
     {From::framework, "ray.kernel"},       {From::framework, "shading.kernel"},
     {From::framework, "segment.kernel"},   {From::sampler, ""},
     {From::framework, "steps.kernel"},     {From::estimator, ""},
-    {From::framework, "composite.kernel"}, {From::framework, "march.glsl"},
+    {From::framework, "composite.kernel"}, {From::framework, ""},
 };
 
 std::string read_text(const std::string& file) {
@@ -122,7 +122,8 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
     std::string name, text;
     switch (part.from) {
       case From::framework:
-        name = part.file, text = read_text(job.kernel_folder + "/" + part.file);
+        name = *part.file != 0 ? part.file : walks(job.sampler) ? "walk.glsl" : "march.glsl";
+        text = read_text(job.kernel_folder + "/" + name);
         break;
       case From::generated:
         name = "generated declarations", text = generated;

@@ -27,6 +27,7 @@
 #define TABLEI(name)
 #define BYTES(name)
 #define VOXELS(name) DVR_DEFINE_FETCH_CELL(name)
+#define VOLUME(name) DVR_DEFINE_FETCH_CELL(name)
 
 #define fetch1(name, i) fetch1_##name(uint(i))
 #define fetch2(name, i, a, b) fetch2_##name(uint(i), a, b)

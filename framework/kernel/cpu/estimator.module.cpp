@@ -46,7 +46,7 @@ constexpr unsigned larger(unsigned a, unsigned b) { return a < b ? b : a; }
 const dvr_kernel_module module = {
     DVR_KERNEL_ABI, "estimator", DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
     larger(larger(sizeof(Estimator_grey), sizeof(Estimator_rgb)), larger(sizeof(Estimator_full_grey), sizeof(Estimator_full_rgb))),
-    alignof(Estimator_full_rgb), &init};
+    alignof(Estimator_full_rgb), 0, &init};
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const dvr_kernel_module* dvrlab_kernel_module() { return &module; }

@@ -89,4 +89,5 @@ DVR_INLINE State local(const void* frame) {
 #define TABLE4(name) dvr::table4 name = {this->buffer<float>(#name, DVR_ELEMENT_VEC4)};
 #define TABLEI(name) dvr::tablei name = {this->buffer<int32_t>(#name, DVR_ELEMENT_I32)};
 #define BYTES(name) dvr::bytes8 name = {this->buffer<uint8_t>(#name, DVR_ELEMENT_U8)};
-// VOXELS(name) is defined by the sampler module: the voxel type is the module's variant.
+#define VOLUME(name) dvr::voxels<float> name = {this->buffer<float>(#name, DVR_ELEMENT_F32)};
+// VOXELS(name) is defined by the sampler and stage modules: the voxel type is the module's variant.

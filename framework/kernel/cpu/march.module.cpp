@@ -31,7 +31,7 @@ int init(void* frame, const dvr_bindings* bindings, int features, dvr_calls* cal
 }
 
 const dvr_kernel_module module = {DVR_KERNEL_ABI,     "march",           DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
-                                  sizeof(March_grey), alignof(March_rgb), &init};
+                                  sizeof(March_grey), alignof(March_rgb), 0, &init};
 static_assert(sizeof(March_grey) == sizeof(March_rgb));
 }  // namespace
 

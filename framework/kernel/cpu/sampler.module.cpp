@@ -1,5 +1,6 @@
-// The sampler as a kernel module: starts rays and fills chunks. Compiled once per instruction set; one variant
-// per voxel type. DVR_KERNEL_FILE defines sample_value(p) and sample_gradient(p), p in sampler coordinates.
+// The sampler as a kernel module: starts rays and fills chunks. Compiled once per instruction set.
+// A positional sampler (DVR_KERNEL_FILE defines sample_value(p) and sample_gradient(p), p in sampler coordinates) has
+// one variant per voxel type; a walking one (walk_start, walk_next, walk_gradient) has one.
 #include "framework/kernel/cpu/kernel.h"
 
 #define DVR_RGB 0   // the sampler asks the medium only where it is shaded: the same for grey and RGB
@@ -9,6 +10,9 @@ namespace {
 using namespace dvr;
 using dvr::floor;
 
+#if DVR_WALKING
+#include "framework/kernel/cpu/walker_variant.h"
+#else
 #if DVR_HAS_VOXELS
 #define DVR_STRUCT Sampler_u8
 #define DVR_VOXEL uint8_t
@@ -31,6 +35,7 @@ using dvr::floor;
 #define DVR_VOXEL float
 #define DVR_VOXEL_ELEMENT DVR_ELEMENT_F32
 #include "framework/kernel/cpu/sampler_variant.h"
+#endif
 
 template <class S>
 int make(void* frame, const dvr_bindings* bindings, dvr_calls* calls, char* missing) {
@@ -54,11 +59,23 @@ int init(void* frame, const dvr_bindings* bindings, int, dvr_calls* calls, char*
     }
   }
 #endif
+#if DVR_WALKING
+  return make<Walker>(frame, bindings, calls, missing);
+#else
   return make<Sampler_f32>(frame, bindings, calls, missing);
+#endif
 }
 
+#if DVR_WALKING
+typedef Walker largest;
+constexpr unsigned walk_bytes = sizeof(Walker::walk_state);
+#else
+typedef Sampler_f32 largest;
+constexpr unsigned walk_bytes = 0;
+#endif
+
 const dvr_kernel_module module = {DVR_KERNEL_ABI, "sampler", DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
-                                  sizeof(Sampler_f32), alignof(Sampler_f32), &init};
+                                  sizeof(largest), alignof(largest), walk_bytes, &init};
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const dvr_kernel_module* dvrlab_kernel_module() { return &module; }

@@ -1,0 +1,90 @@
+// The walking sampler module: segments end where the kernel's walk finds the next face (not guarded). The contract of
+// walk_state, walk_start, walk_next and walk_gradient stands in framework/kernel/walk.glsl.
+struct Walker : kernel_base {
+  using kernel_base::kernel_base;
+#include "framework/kernel/cpu/spectral.h"
+#include "framework/kernel/math.kernel"
+#include "framework/kernel/medium.kernel"
+#include "framework/kernel/ray.kernel"
+#include DVR_KERNEL_FILE
+  UNIFORM_I(frame_samples_ends)
+  UNIFORM_I(frame_gradient)
+
+  KFN static vec3r load3(const float (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
+  KFN static void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
+    store(p[0], a.x);
+    store(p[1], a.y);
+    store(p[2], a.z);
+  }
+
+  KFN void start(dvr_packet* p) {
+    ray r;
+    r.grid_o = load3(p->grid_o);
+    r.grid_d = load3(p->grid_d);
+    r.world_o = load3(p->world_o);
+    r.world_d = load3(p->world_d);
+    const span s = clip_ray(r);
+    const real L = s.t1 - s.t0;
+    const mask hit = L > R(0.0f);
+    const vec3r o = r.grid_o + r.grid_d * s.t0;
+    store3(p->grid_o, o);
+    store3(p->world_o, r.world_o + r.world_d * s.t0);
+    store(p->n, select(hit, I(DVR_WALK_OPEN), I(0)));
+    store(p->i, I(0));
+    store(p->skipped, I(0));
+    store(p->length, select(hit, L, R(0.0f)));
+    store(p->offset, R(0.0f));
+    walk_start(o, r.grid_d, select(hit, L, R(0.0f)), *static_cast<walk_state*>(p->walk));
+  }
+
+  // `ends`: row k is the front end of segment k, row k+1 its back end, as the positional sampler leaves them.
+  // `centre`: row k+1 is the centre of segment k, half way, since the scalar is linear between faces.
+  KFN int fill(dvr_packet* p, dvr_chunk* c) {
+    const inti i = load(p->i);
+    inti n = load(p->n);
+    if (!any_lane(i < n)) return 0;
+    const real L = load(p->length);
+    const vec3r o = load3(p->grid_o), d = load3(p->grid_d);
+    const bool ends = frame_samples_ends != 0;
+    walk_state w = *static_cast<walk_state*>(p->walk);
+    int k = 0;
+    for (; k < DVR_CHUNK && any_lane(i + I(k) < n); ++k) {
+      const mask alive = i + I(k) < n;
+      const walk_state front = w;
+      const inti kind = walk_next(o, d, L, w);
+      n = select(alive && kind == I(0), i + I(k), n);
+      const real len = w.s - front.s;
+      store(c->len + k * W, select(alive && kind == I(1), len, R(0.0f)));
+      if (ends) {
+        put(c, k, front.s, front.v);
+        put(c, k + 1, w.s, w.v);
+      } else {
+        put(c, k + 1, R(0.5f) * (front.s + w.s), R(0.5f) * (front.v + w.v));
+      }
+      if (frame_gradient != 0 && any_lane(alive && kind == I(1) && medium_shaded(front.v, w.v))) {
+        const vec3r a = walk_gradient(o, d, front), b = walk_gradient(o, d, w);
+        if (ends) {
+          put_gradient(c, k, a);
+          put_gradient(c, k + 1, b);
+        } else {
+          put_gradient(c, k + 1, (a + b) * R(0.5f));
+        }
+      }
+    }
+    *static_cast<walk_state*>(p->walk) = w;
+    store(p->n, n);
+    store(p->i, i + I(k));
+    c->n = k;
+    return k;
+  }
+
+  KFN static void put(dvr_chunk* c, int row, real s, real v) {
+    store(c->s + row * W, s);
+    store(c->v + row * W, v);
+  }
+  KFN static void put_gradient(dvr_chunk* c, int row, vec3r g) {
+    store(c->g[0] + row * W, g.x);
+    store(c->g[1] + row * W, g.y);
+    store(c->g[2] + row * W, g.z);
+  }
+};
