@@ -186,7 +186,7 @@ def lines_of_code(path):
 def neutral_share(root):
     """(neutral lines, language lines): kernel texts against the compat headers and the marches of each language."""
     kernel_folder = root / "framework" / "kernel"
-    language = [kernel_folder / "march.glsl", *kernel_folder.glob("compat/*")]
+    language = [*kernel_folder.glob("*.glsl"), *kernel_folder.glob("compat/*")]
     return (sum(lines_of_code(p) for p in kernel_texts(root)), sum(lines_of_code(p) for p in language if p.is_file()))
 
 
