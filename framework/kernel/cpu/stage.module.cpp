@@ -48,19 +48,31 @@ int init(void* frame, const dvr_bindings* bindings, int features, dvr_calls* cal
   for (int k = 0; k < bindings->buffer_count; ++k) {
     if (strcmp(bindings->buffers[k].name, DVR_KERNEL_NAME "_field") != 0) continue;
     switch (bindings->buffers[k].element) {
-      case DVR_ELEMENT_U8: return make_typed<uint8_t>(frame, bindings, features, calls, missing);
-      case DVR_ELEMENT_I8: return make_typed<int8_t>(frame, bindings, features, calls, missing);
-      case DVR_ELEMENT_U16: return make_typed<uint16_t>(frame, bindings, features, calls, missing);
-      case DVR_ELEMENT_I16: return make_typed<int16_t>(frame, bindings, features, calls, missing);
-      default: break;
+      case DVR_ELEMENT_U8:
+        return make_typed<uint8_t>(frame, bindings, features, calls, missing);
+      case DVR_ELEMENT_I8:
+        return make_typed<int8_t>(frame, bindings, features, calls, missing);
+      case DVR_ELEMENT_U16:
+        return make_typed<uint16_t>(frame, bindings, features, calls, missing);
+      case DVR_ELEMENT_I16:
+        return make_typed<int16_t>(frame, bindings, features, calls, missing);
+      default:
+        break;
     }
   }
 #endif
   return make_typed<float>(frame, bindings, features, calls, missing);
 }
 
-const dvr_kernel_module module = {DVR_KERNEL_ABI,           "stage",           DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
-                                  sizeof(Stage_rgb<float>), alignof(Stage_rgb<float>), 0, &init};
+const dvr_kernel_module module = {DVR_KERNEL_ABI,
+                                  "stage",
+                                  DVR_KERNEL_NAME,
+                                  W,
+                                  DVR_PACKET_COLUMNS,
+                                  sizeof(Stage_rgb<float>),
+                                  alignof(Stage_rgb<float>),
+                                  0,
+                                  &init};
 static_assert(sizeof(Stage_grey<float>) == sizeof(Stage_rgb<float>));
 }  // namespace
 
