@@ -128,9 +128,18 @@ Ratio ratio(const std::vector<double>& a, const std::vector<double>& b) {
   return {least(a) / least(b), median(rounds)};
 }
 
-void figure(const char* what, double best, double typical, const char* goal, bool met) {
-  std::printf("| %s | %.2f | %.2f | %s | %s |\n", what, best, typical, goal, met ? "yes" : "no");
+/// The goals in milliseconds hold for one kind of machine: AMD Zen 5, which calls itself family 26.
+bool is_zen5() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("cpu family", 0) == 0) return line.ends_with(" 26");
+  return false;
 }
+
+void figure(const char* what, double best, double typical, const char* goal, const char* reached) {
+  std::printf("| %s | %.2f | %.2f | %s | %s |\n", what, best, typical, goal, reached);
+}
+const char* yes(bool met) { return met ? "yes" : "no"; }
 
 /// Goals that hold on any machine are judged by the better of the two estimates: load only makes them worse.
 void print_figures(const std::vector<Contender>& all, const std::vector<double>& list) {
@@ -146,22 +155,23 @@ void print_figures(const std::vector<Contender>& all, const std::vector<double>&
       {"vulkan u8, CPU ms", "vulkan", "uint8", "<= 1.25 x 1120 (lavapipe, AMD Zen 5)", 1.25 * 1120},
       {"opengl f32, CPU ms", "opengl", "float32", "<= 1.25 x 1265 (llvmpipe, AMD Zen 5)", 1.25 * 1265},
       {"opengl u8, CPU ms", "opengl", "uint8", "<= 1.25 x 1120 (llvmpipe, AMD Zen 5)", 1.25 * 1120}};
+  const bool zen5 = is_zen5();
   for (const Absolute& a : absolutes)
     if (const Contender* c = find(all, a.name, a.type))
-      figure(a.what, least(c->cpu), median(c->cpu), a.goal, least(c->cpu) <= a.bound);
+      figure(a.what, least(c->cpu), median(c->cpu), a.goal, zen5 ? yes(least(c->cpu) <= a.bound) : "another machine");
   for (const char* type : {"float32", "uint8"}) {
     const std::string name = short_name(type);
     const Contender *cpu = find(all, "cpu avx512", type), *vulkan = find(all, "vulkan", type);
     if (cpu != nullptr && vulkan != nullptr) {
       const Ratio r = ratio(vulkan->cpu, cpu->cpu);
       figure(("vulkan / cpu avx512 " + name + ", CPU ms").c_str(), r.of_least, r.of_rounds,
-             ">= 4 when vulkan is lavapipe", std::max(r.of_least, r.of_rounds) >= 4);
+             ">= 4 when vulkan is lavapipe", yes(std::max(r.of_least, r.of_rounds) >= 4));
     }
     const Contender *one = find(all, "cpu, 1 thread", type), *two = find(all, "cpu, 2 threads", type);
     if (one != nullptr && two != nullptr && processors() > 1) {
       const Ratio r = ratio(one->wall, two->wall), work = ratio(one->cpu, two->cpu);
       figure(("1 thread / 2 threads " + name + ", wall ms").c_str(), r.of_least, r.of_rounds, ">= 1.85",
-             std::max(r.of_least, r.of_rounds) >= 1.85);
+             yes(std::max(r.of_least, r.of_rounds) >= 1.85));
       std::printf("| twice the CPU ms of 1 thread / of 2 threads %s (needs no idle machine) | %.2f | %.2f | | |\n",
                   name.c_str(), 2 * work.of_least, 2 * work.of_rounds);
     }
@@ -172,7 +182,7 @@ void print_figures(const std::vector<Contender>& all, const std::vector<double>&
       std::printf("| cpu %s / cpu avx512 %s, CPU ms | %.2f | %.2f | | |\n", isa, name.c_str(), r.of_least, r.of_rounds);
     }
   }
-  figure("dvrlab list, wall ms", least(list), median(list), "< 50", least(list) < 50);
+  figure("dvrlab list, wall ms", least(list), median(list), "< 50", yes(least(list) < 50));
 }
 
 void print_machine(const std::vector<Contender>& all, const Options& o) {

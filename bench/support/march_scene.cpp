@@ -36,6 +36,16 @@ Scene march_scene(const Variation& variation, const std::vector<std::string>& se
   return build_scene(c, registry(), fields.load(c, registry()));
 }
 
+std::shared_ptr<const Field> load_data(const std::string& section) {
+  nlohmann::json config = {{"data", nlohmann::json::parse(section)},
+                           {"optical_model", {{"type", "absorption_emission"}, {"opacity", {{0, 0}, {1, 0.1}}}}},
+                           {"estimator", {{"type", "direct"}}},
+                           {"camera", {{"type", "perspective"}, {"position", {0, -3, 0}}}},
+                           {"sampling", {{"type", "uniform"}}}};
+  const Experiment e = plan_experiment(parse_document(config.dump(), "data", DVRLAB_SOURCE), registry());
+  return FieldCache().load(e.cases.front().resolved, registry());
+}
+
 std::unique_ptr<BackendSession> open_backend(const std::string& section) {
   const ResolvedCase c = resolve({"backend=" + section});
   return registry().get<BackendPlugin>("backend", c.backend.type).open(c.backend.parameters, c.backend.folder);

@@ -22,6 +22,9 @@ struct Variation {
 /// The scene with a variation and further overrides ("key.path=value"). Scenes of equal data share the field.
 Scene march_scene(const Variation& variation, const std::vector<std::string>& set = {});
 
+/// Loads a data section (JSON text) anew, past every cache.
+std::shared_ptr<const Field> load_data(const std::string& section);
+
 /// A backend section such as {"type":"cpu","isa":"avx2","threads":1}, as JSON text. Throws NotSupported.
 std::unique_ptr<BackendSession> open_backend(const std::string& section);
 
