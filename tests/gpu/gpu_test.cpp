@@ -12,10 +12,6 @@
 namespace dvrlab::gpu_test {
 namespace {
 
-constexpr const char* texts[] = {"math.kernel",      "medium.kernel",    "ray.kernel",
-                                 "shading.kernel",   "segment.kernel",   "steps.kernel",
-                                 "composite.kernel", "compat/glsl.glsl", "none.kernel"};
-
 constexpr const char* march = R"(layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
   int x = int(gl_GlobalInvocationID.x);
@@ -56,8 +52,15 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 ProbeKernels::ProbeKernels(const std::string& probe_body) {
-  std::filesystem::create_directory(folder_.path() + "/compat");
-  for (const char* text : texts) write(text, "");
+  const std::filesystem::path real = Registry::kernel_folder();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(real)) {
+    const std::string name = std::filesystem::relative(entry.path(), real).string();
+    if (entry.is_directory())
+      std::filesystem::create_directory(folder_.path() + "/" + name);
+    else
+      write(name, "");
+  }
+  write("none.kernel", "");
   write("march.glsl", march);
   write("probe.kernel", "void probe(int pixel, out vec4 a, out vec4 b) {\n" + probe_body + "\n}\n");
 }
