@@ -191,7 +191,7 @@ def neutral_share(root):
 
 
 def kernel_texts(root):
-    return sorted(p for top in ("framework", "plugins", "backends") for p in (root / top).rglob("*.kernel"))
+    return sorted(p for top in ("framework", "plugins", "backends", "tests") for p in (root / top).rglob("*.kernel"))
 
 
 def main(arguments):

@@ -13,8 +13,8 @@
 namespace dvrlab {
 namespace {
 
-/// The order of the texts. A part without a file is generated, is the kernel of a plugin, or the march.
-enum class From { framework, generated, sampler, estimator };
+/// The order of the texts. A part without a file is generated, is the kernel of a plugin, or the stream that fits it.
+enum class From { framework, generated, sampler, stream, estimator };
 struct Part {
   From from;
   const char* file;
@@ -23,9 +23,11 @@ constexpr Part part_list[] = {
     {From::framework, "compat/glsl.glsl"}, {From::generated, ""},
     {From::framework, "math.kernel"},      {From::framework, "medium.kernel"},
     {From::framework, "ray.kernel"},       {From::framework, "shading.kernel"},
-    {From::framework, "segment.kernel"},   {From::sampler, ""},
-    {From::framework, "steps.kernel"},     {From::estimator, ""},
-    {From::framework, "composite.kernel"}, {From::framework, ""},
+    {From::framework, "segment.kernel"},   {From::framework, "volume.kernel"},
+    {From::sampler, ""},                   {From::framework, "steps.kernel"},
+    {From::framework, "stream.glsl"},      {From::stream, ""},
+    {From::estimator, ""},                 {From::framework, "composite.kernel"},
+    {From::framework, "march.glsl"},
 };
 
 std::string read_text(const std::string& file) {
@@ -122,8 +124,10 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
     std::string name, text;
     switch (part.from) {
       case From::framework:
-        name = *part.file != 0 ? part.file : walks(job.sampler) ? "walk.glsl" : "march.glsl";
-        text = read_text(job.kernel_folder + "/" + name);
+        name = part.file, text = read_text(job.kernel_folder + "/" + name);
+        break;
+      case From::stream:
+        name = walks(job.sampler) ? "walk.glsl" : "steps.glsl", text = read_text(job.kernel_folder + "/" + name);
         break;
       case From::generated:
         name = "generated declarations", text = generated;

@@ -50,7 +50,6 @@ class FaultyFolder {
 
 struct Fault {
   std::string name, file, from, to;
-  bool in_sampler = false;
 };
 
 void PrintTo(const Fault& f, std::ostream* out) { *out << f.name; }
@@ -66,9 +65,8 @@ TEST_P(PlantedFault, IsCaught) {
     ASSERT_EQ(differing_values(right, same), 0u) << "without a fault the backends agree";
     std::unique_ptr<FaultyFolder> folder;
     const FrameImage wrong = render(config(), vulkan, [&](FrameJob& job) {
-      std::string& place = fault.in_sampler ? job.sampler.folder : job.kernel_folder;
-      folder = std::make_unique<FaultyFolder>(place, fault.file, fault.from, fault.to);
-      place = folder->path();
+      folder = std::make_unique<FaultyFolder>(job.kernel_folder, fault.file, fault.from, fault.to);
+      job.kernel_folder = folder->path();
     }).image;
     std::printf("%s: largest difference %.3e in %zu values\n", fault.name.c_str(), largest_difference(right, wrong),
                 differing_values(right, wrong));
@@ -86,11 +84,10 @@ INSTANTIATE_TEST_SUITE_P(
               "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
         Fault{"last_segment_with_full_length", "steps.kernel", "return select(regular, R(frame_step), inner);",
               "return R(frame_step);"},
-        Fault{"filter_weights_of_8_bits", "grid.kernel", "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
-              "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z - to_real(c.z));",
-              true},
-        Fault{"half_voxel_shift", "grid.kernel", "real x = rmin(rmax(p.x, R(0.0)), last.x);",
-              "real x = rmin(rmax(p.x + R(0.5), R(0.0)), last.x);", true}),
+        Fault{"filter_weights_of_8_bits", "volume.kernel", "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
+              "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z - to_real(c.z));"},
+        Fault{"half_voxel_shift", "volume.kernel", "real x = rmin(rmax(p.x, R(0.0)), to_real(I(nx - 1)));",
+              "real x = rmin(rmax(p.x + R(0.5), R(0.0)), to_real(I(nx - 1)));"}),
     [](const auto& instance) { return instance.param.name; });
 
 // A contracted multiply-add differs in the last bit only; the comparison must see it.
@@ -112,9 +109,9 @@ TEST(PlantedFault, FmaIsRefusedInStrictMode) {
     std::unique_ptr<FaultyFolder> folder;
     EXPECT_THROW(render(config(), vulkan,
                         [&](FrameJob& job) {
-                          folder = std::make_unique<FaultyFolder>(job.sampler.folder, "grid.kernel",
+                          folder = std::make_unique<FaultyFolder>(job.kernel_folder, "volume.kernel",
                                                                   "{ return a + w * (b - a); }", "{ return fma(w, b - a, a); }");
-                          job.sampler.folder = folder->path();
+                          job.kernel_folder = folder->path();
                         }),
                  std::exception);
   } catch (const NotSupported& reason) {

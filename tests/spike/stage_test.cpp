@@ -61,9 +61,8 @@ class StageTexts {
     path_ = name;
     fs::copy(Registry::kernel_folder(), path_, fs::copy_options::recursive);
     fs::copy_file(DVRLAB_SPIKE_SOURCE "/stage/stage.glsl", path_ / "march.glsl", fs::copy_options::overwrite_existing);
-    std::ofstream(path_ / "none.kernel");
-    std::ofstream(path_ / (stage + ".kernel"))
-        << text(path_ / "volume.kernel") << text(DVRLAB_SPIKE_SOURCE "/stage/" + stage + ".kernel");
+    for (const char* empty : {"none.kernel", "stream.glsl", "steps.glsl"}) std::ofstream(path_ / empty);
+    fs::copy_file(DVRLAB_SPIKE_SOURCE "/stage/" + stage + ".kernel", path_ / (stage + ".kernel"));
   }
   ~StageTexts() {
     std::error_code ignored;
@@ -74,10 +73,6 @@ class StageTexts {
   std::string path() const { return path_.string(); }
 
  private:
-  static std::string text(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
   fs::path path_;
 };
 

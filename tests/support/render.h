@@ -20,6 +20,7 @@ struct Target {
   std::string name;        // for messages
   nlohmann::json backend;  // the config's section
 };
+inline void PrintTo(const Target& t, std::ostream* out) { *out << t.name; }
 /// cpu scalar, sse4.2, avx2, avx512, vulkan, opengl. Those that cannot run here throw NotSupported when used.
 const std::vector<Target>& targets();
 

@@ -10,10 +10,8 @@ struct DVR_STRUCT : kernel_base {
 
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
   KFN void integrate(const dvr_packet* p, dvr_chunk* c) {
-    segment q;
-    q.world_o = {load(p->world_o[0]), load(p->world_o[1]), load(p->world_o[2])};
-    q.world_d = {load(p->world_d[0]), load(p->world_d[1]), load(p->world_d[2])};
-    q.inv_L = rcp(rmax(load(p->length), R(1e-30f)));
+    segment q = segment_of_ray({load(p->world_o[0]), load(p->world_o[1]), load(p->world_o[2])},
+                               {load(p->world_d[0]), load(p->world_d[1]), load(p->world_d[2])}, load(p->length));
     const int n = c->n;
     for (int k = 0; k < n; ++k) {
       const int a = k * W, b = a + W, e = b + W;

@@ -7,6 +7,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/steps.kernel"
+#include "framework/kernel/volume.kernel"
 #include DVR_KERNEL_FILE
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_neighbours)

@@ -43,7 +43,7 @@ bool finite_numbers(const nlohmann::json& list, std::size_t count) {
 FormulaParams make_formula(const ParameterSet& parameters) {
   FormulaParams f;
   f.kind = static_cast<Kind>(parameters.choice_index("field"));
-  auto& [p0, p1] = f.p;
+  auto &p0 = f.p[0], &p1 = f.p[1];
   const double offset = parameters.number("offset"), scale = parameters.number("scale");
   const auto around_center = [&] {
     const Vector3 c = parameters.vector3("center");

@@ -27,7 +27,7 @@ class Grid : public SamplerPlugin {
     KernelUnit unit;
     const auto& n = grid->dims;
     unit.uniforms = {Uniform::integer("grid_nx", n[0]), Uniform::integer("grid_ny", n[1]),
-                     Uniform::integer("grid_nz", n[2]), Uniform::vector("grid_last", n[0] - 1, n[1] - 1, n[2] - 1)};
+                     Uniform::integer("grid_nz", n[2])};
     // The gradient in world space is the inverse transposed of the linear part times the gradient in index space.
     const Affine inverse = grid->to_world.inverse();
     const char* names[3] = {"grid_gradient_x", "grid_gradient_y", "grid_gradient_z"};
