@@ -14,8 +14,8 @@ const Parameter parameters[] = {
      "\"scalar\""},
     {"threads", ParameterType::integer, "", "0", "[0,1024]", "Worker threads; 0 takes one per hardware thread.",
      Affects::speed, "", "1"},
-    {"tile", ParameterType::integer, "pixel", "16", "[4,1024]",
-     "Side of the square image tiles that threads work on.", Affects::speed, "", "64"},
+    {"tile", ParameterType::integer, "pixel", "16", "[4,1024]", "Side of the square image tiles that threads work on.",
+     Affects::speed, "", "64"},
 };
 
 class CpuSession : public BackendSession {

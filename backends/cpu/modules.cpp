@@ -29,13 +29,20 @@ const dvr_kernel_module* ModuleCache::get(const std::string& folder, const std::
 namespace {
 int element_code(Element e) {
   switch (e) {
-    case Element::u8: return DVR_ELEMENT_U8;
-    case Element::i8: return DVR_ELEMENT_I8;
-    case Element::u16: return DVR_ELEMENT_U16;
-    case Element::i16: return DVR_ELEMENT_I16;
-    case Element::f32: return DVR_ELEMENT_F32;
-    case Element::vec4: return DVR_ELEMENT_VEC4;
-    case Element::i32: return DVR_ELEMENT_I32;
+    case Element::u8:
+      return DVR_ELEMENT_U8;
+    case Element::i8:
+      return DVR_ELEMENT_I8;
+    case Element::u16:
+      return DVR_ELEMENT_U16;
+    case Element::i16:
+      return DVR_ELEMENT_I16;
+    case Element::f32:
+      return DVR_ELEMENT_F32;
+    case Element::vec4:
+      return DVR_ELEMENT_VEC4;
+    case Element::i32:
+      return DVR_ELEMENT_I32;
   }
   return DVR_ELEMENT_F32;
 }
@@ -50,7 +57,8 @@ void Bindings::add(const KernelUnit& unit) {
     c.i = u.i;
     uniforms_.push_back(c);
   }
-  for (const Buffer& b : unit.buffers) buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count});
+  for (const Buffer& b : unit.buffers)
+    buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count});
 }
 
 dvr_bindings Bindings::view() const {

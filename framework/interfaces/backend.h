@@ -85,7 +85,8 @@ class BackendSession {
 class BackendPlugin : public Plugin {
  public:
   /// Throws NotSupported with the reason (no device, no driver, instruction set missing).
-  virtual std::unique_ptr<BackendSession> open(const ParameterSet& parameters, const std::string& plugin_folder) const = 0;
+  virtual std::unique_ptr<BackendSession> open(const ParameterSet& parameters,
+                                               const std::string& plugin_folder) const = 0;
 };
 
 }  // namespace dvrlab

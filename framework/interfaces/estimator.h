@@ -33,7 +33,8 @@ class EstimatorPlugin : public Plugin {
  public:
   virtual EstimatorDeclaration declaration() const = 0;
   /// Tables and derived uniforms. The numeric parameters are added by the framework.
-  virtual void prepare(const ParameterSet& /*parameters*/, const EstimatorContext& /*context*/, KernelUnit& /*unit*/) const {}
+  virtual void prepare(const ParameterSet& /*parameters*/, const EstimatorContext& /*context*/,
+                       KernelUnit& /*unit*/) const {}
 };
 
 }  // namespace dvrlab

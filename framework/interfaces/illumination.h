@@ -23,10 +23,10 @@ struct LocalShading {
   enum class Mode { none, blinn_phong, prescribed };
   Mode mode = Mode::none;
   double ambient = 1, diffuse = 0, specular = 0;
-  int shininess = 1;          // whole number: the power is taken by repeated squaring
+  int shininess = 1;  // whole number: the power is taken by repeated squaring
   bool two_sided = true;
-  double gradient_eps = 0;    // physical value per world length; below it k = ambient + diffuse, b = 0
-  std::vector<Light> light;   // at most 4
+  double gradient_eps = 0;   // physical value per world length; below it k = ambient + diffuse, b = 0
+  std::vector<Light> light;  // at most 4
   /// prescribed: values at the two ends of the ray, linear in arc length between
   std::array<Vector3, 2> m{}, k{}, b{};
 };

@@ -12,7 +12,15 @@
 #define DVR_WALK_OPEN (1 << 30)
 
 enum { DVR_F32 = 0, DVR_I32 = 1, DVR_VEC4 = 2 };
-enum { DVR_ELEMENT_U8, DVR_ELEMENT_I8, DVR_ELEMENT_U16, DVR_ELEMENT_I16, DVR_ELEMENT_F32, DVR_ELEMENT_VEC4, DVR_ELEMENT_I32 };
+enum {
+  DVR_ELEMENT_U8,
+  DVR_ELEMENT_I8,
+  DVR_ELEMENT_U16,
+  DVR_ELEMENT_I16,
+  DVR_ELEMENT_F32,
+  DVR_ELEMENT_VEC4,
+  DVR_ELEMENT_I32
+};
 enum { DVR_FEATURE_RGB = 1, DVR_FEATURE_FULL = 2 }; /* bits that choose the compiled variant */
 
 typedef struct dvr_uniform {
@@ -39,23 +47,23 @@ typedef struct dvr_bindings {
 /* A packet of rays, structure of arrays. Positions are origin + s * direction, s = arc length in world units
  * from the entry point of the ray. */
 typedef struct dvr_packet {
-  alignas(64) float grid_o[3][DVR_MAX_WIDTH];  /* sampler coordinates of the entry point */
-  float grid_d[3][DVR_MAX_WIDTH];               /* sampler coordinates per world length */
-  float world_o[3][DVR_MAX_WIDTH];              /* world coordinates relative to the box centre */
-  float world_d[3][DVR_MAX_WIDTH];              /* unit length */
-  int x[DVR_MAX_WIDTH], y[DVR_MAX_WIDTH];       /* pixel */
-  float length[DVR_MAX_WIDTH];                  /* L: entry to exit */
-  float offset[DVR_MAX_WIDTH];                  /* jitter: (1 - xi) * step, 0 without */
-  int n[DVR_MAX_WIDTH];                         /* number of segments (a walking sampler: DVR_WALK_OPEN until it is
-                                                   known); set to i when the ray has ended early */
-  int i[DVR_MAX_WIDTH];                         /* next segment */
-  int skipped[DVR_MAX_WIDTH];                   /* segments that were skipped as empty */
-  int carried;                                  /* 1: the last chunk's final rows serve the next (sampler's own) */
-  void* walk;                                   /* packet_bytes of the sampler's own, 64-byte aligned */
-  float color[3][DVR_MAX_WIDTH];                /* accumulated radiance */
-  float trans[3][DVR_MAX_WIDTH];                /* accumulated transmittance */
-  int samples[DVR_MAX_WIDTH];                   /* segments that were composited */
-  int terminated[DVR_MAX_WIDTH];                /* 1: ended by early termination */
+  alignas(64) float grid_o[3][DVR_MAX_WIDTH]; /* sampler coordinates of the entry point */
+  float grid_d[3][DVR_MAX_WIDTH];             /* sampler coordinates per world length */
+  float world_o[3][DVR_MAX_WIDTH];            /* world coordinates relative to the box centre */
+  float world_d[3][DVR_MAX_WIDTH];            /* unit length */
+  int x[DVR_MAX_WIDTH], y[DVR_MAX_WIDTH];     /* pixel */
+  float length[DVR_MAX_WIDTH];                /* L: entry to exit */
+  float offset[DVR_MAX_WIDTH];                /* jitter: (1 - xi) * step, 0 without */
+  int n[DVR_MAX_WIDTH];                       /* number of segments (a walking sampler: DVR_WALK_OPEN until it is
+                                                 known); set to i when the ray has ended early */
+  int i[DVR_MAX_WIDTH];                       /* next segment */
+  int skipped[DVR_MAX_WIDTH];                 /* segments that were skipped as empty */
+  int carried;                                /* 1: the last chunk's final rows serve the next (sampler's own) */
+  void* walk;                                 /* packet_bytes of the sampler's own, 64-byte aligned */
+  float color[3][DVR_MAX_WIDTH];              /* accumulated radiance */
+  float trans[3][DVR_MAX_WIDTH];              /* accumulated transmittance */
+  int samples[DVR_MAX_WIDTH];                 /* segments that were composited */
+  int terminated[DVR_MAX_WIDTH];              /* 1: ended by early termination */
 } dvr_packet;
 
 /* Row r of s and v: `centre`: sample of segment i+r-1 (row 0 is the one before); `ends`: front end of segment
@@ -101,11 +109,11 @@ typedef union dvr_calls {
 } dvr_calls;
 
 typedef struct dvr_kernel_module {
-  int abi;            /* DVR_KERNEL_ABI */
-  const char* kind;   /* sampler | estimator | march | stage */
+  int abi;          /* DVR_KERNEL_ABI */
+  const char* kind; /* sampler | estimator | march | stage */
   const char* name;
-  int width;          /* lanes */
-  int packet_columns; /* pixels of a packet in x; width / columns in y */
+  int width;                         /* lanes */
+  int packet_columns;                /* pixels of a packet in x; width / columns in y */
   unsigned frame_bytes, frame_align; /* memory that init() wants, the largest of its variants */
   unsigned packet_bytes;             /* of dvr_packet::walk, 0 for none */
   /* Constructs the per-frame state in `frame` for the given DVR_* feature bits and names the functions that

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/interfaces/plugin.h"
 #include "framework/interfaces/parameter_set.h"
+#include "framework/interfaces/plugin.h"
 
 namespace dvrlab {
 

@@ -21,14 +21,14 @@ enum class Affects { pixels, speed, nothing };
 
 /// One parameter. Plain data: all strings are literals owned by the plugin.
 struct Parameter {
-  const char* name;           // the JSON key
+  const char* name;  // the JSON key
   ParameterType type;
   const char* unit;           // "" when it has none
   const char* default_value;  // JSON text; nullptr when the key is required
   // integer, number, vector3, integer3: an interval such as "[0,inf)"; choice: "a|b|c"; nodes: components, "1", "3"
   // or "1|3"; json: what is legal, in words; else ""
   const char* legal;
-  const char* summary;        // one sentence
+  const char* summary;  // one sentence
   Affects affects;
   const char* live_in = "";     // JSON merge patch on the plugin's example config in which `live_value` must act
   const char* live_value = "";  // JSON text of a second legal value for the liveness test

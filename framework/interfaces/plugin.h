@@ -39,14 +39,15 @@ Plugin* create_plugin(char* error) noexcept;
 
 /// DVRLAB_PLUGIN(kind, name, version, Class, parameters, summary, citation): the versioned C entry point.
 /// `parameters` is an array of Parameter with at least one element; see DVRLAB_PLUGIN_PLAIN for none.
-#define DVRLAB_PLUGIN_ENTRY(kind_, name_, version_, Class_, parameters_, count_, summary_, citation_)            \
-  extern "C" __attribute__((visibility("default"))) const ::dvrlab::PluginDescriptor* dvrlab_plugin() {          \
-    static const ::dvrlab::PluginDescriptor descriptor{DVRLAB_ABI_TAG, kind_,       name_,  version_, summary_,  \
-                                                       citation_,      parameters_, count_, &::dvrlab::create_plugin<Class_>}; \
-    return &descriptor;                                                                                          \
+#define DVRLAB_PLUGIN_ENTRY(kind_, name_, version_, Class_, parameters_, count_, summary_, citation_)               \
+  extern "C" __attribute__((visibility("default"))) const ::dvrlab::PluginDescriptor* dvrlab_plugin() {             \
+    static const ::dvrlab::PluginDescriptor descriptor{DVRLAB_ABI_TAG, kind_,    name_,                             \
+                                                       version_,       summary_, citation_,                         \
+                                                       parameters_,    count_,   &::dvrlab::create_plugin<Class_>}; \
+    return &descriptor;                                                                                             \
   }
-#define DVRLAB_PLUGIN(kind_, name_, version_, Class_, parameters_, summary_, citation_)                  \
-  DVRLAB_PLUGIN_ENTRY(kind_, name_, version_, Class_, parameters_,                                       \
+#define DVRLAB_PLUGIN(kind_, name_, version_, Class_, parameters_, summary_, citation_) \
+  DVRLAB_PLUGIN_ENTRY(kind_, name_, version_, Class_, parameters_,                      \
                       static_cast<int>(sizeof(parameters_) / sizeof((parameters_)[0])), summary_, citation_)
 #define DVRLAB_PLUGIN_PLAIN(kind_, name_, version_, Class_, summary_, citation_) \
   DVRLAB_PLUGIN_ENTRY(kind_, name_, version_, Class_, nullptr, 0, summary_, citation_)

@@ -35,7 +35,8 @@ struct Basis {
 
 Basis looking(const ParameterSet& p, const Vector3& position, const Vector3& target) {
   Basis b;
-  b.forward = unit_vector(minus(target, position), p.path_of("target") + ": equals camera.position; give another point");
+  b.forward =
+      unit_vector(minus(target, position), p.path_of("target") + ": equals camera.position; give another point");
   b.right = unit_vector(cross(b.forward, p.vector3("up")),
                         p.path_of("up") + ": is parallel to the view direction; give another direction");
   b.up = cross(b.right, b.forward);
@@ -49,8 +50,8 @@ AffineRays perspective(const ParameterSet& p, const Frame& frame, int width, int
   const double half = std::tan(p.number("fov_deg") * 3.14159265358979323846 / 360.0), aspect = double(width) / height;
   r.direction_x = times(b.right, 2.0 * half * aspect / width);
   r.direction_y = times(b.up, -2.0 * half / height);
-  r.direction = plus(b.forward, plus(times(b.right, half * aspect * (1.0 / width - 1.0)),
-                                     times(b.up, half * (1.0 - 1.0 / height))));
+  r.direction = plus(
+      b.forward, plus(times(b.right, half * aspect * (1.0 / width - 1.0)), times(b.up, half * (1.0 - 1.0 / height))));
   return r;
 }
 
@@ -62,8 +63,8 @@ AffineRays orthographic(const ParameterSet& p, const Frame& frame, int width, in
   r.direction = b.forward;
   r.origin_x = times(b.right, 2.0 * half * aspect / width);
   r.origin_y = times(b.up, -2.0 * half / height);
-  r.origin = plus(position, plus(times(b.right, half * aspect * (1.0 / width - 1.0)),
-                                 times(b.up, half * (1.0 - 1.0 / height))));
+  r.origin = plus(position,
+                  plus(times(b.right, half * aspect * (1.0 / width - 1.0)), times(b.up, half * (1.0 - 1.0 / height))));
   return r;
 }
 
@@ -91,14 +92,14 @@ void add_camera(const Section& camera, const Field& field, int width, int height
   const auto& m = to_grid.m;
   unit.uniforms.insert(
       unit.uniforms.end(),
-      {vec("frame_origin", to_grid.point(plus(r.origin, frame.centre()))), vec("frame_origin_x", to_grid.vector(r.origin_x)),
-       vec("frame_origin_y", to_grid.vector(r.origin_y)), vec("frame_world_origin", r.origin),
-       vec("frame_world_origin_x", r.origin_x), vec("frame_world_origin_y", r.origin_y),
-       vec("frame_direction", r.direction), vec("frame_direction_x", r.direction_x),
-       vec("frame_direction_y", r.direction_y), Uniform::vector("frame_to_grid_x", m[0], m[1], m[2]),
-       Uniform::vector("frame_to_grid_y", m[3], m[4], m[5]), Uniform::vector("frame_to_grid_z", m[6], m[7], m[8]),
-       Uniform::real("frame_t0", r.t0), Uniform::real("frame_t1", r.t1), vec("frame_lo", field.lo),
-       vec("frame_hi", field.hi)});
+      {vec("frame_origin", to_grid.point(plus(r.origin, frame.centre()))),
+       vec("frame_origin_x", to_grid.vector(r.origin_x)), vec("frame_origin_y", to_grid.vector(r.origin_y)),
+       vec("frame_world_origin", r.origin), vec("frame_world_origin_x", r.origin_x),
+       vec("frame_world_origin_y", r.origin_y), vec("frame_direction", r.direction),
+       vec("frame_direction_x", r.direction_x), vec("frame_direction_y", r.direction_y),
+       Uniform::vector("frame_to_grid_x", m[0], m[1], m[2]), Uniform::vector("frame_to_grid_y", m[3], m[4], m[5]),
+       Uniform::vector("frame_to_grid_z", m[6], m[7], m[8]), Uniform::real("frame_t0", r.t0),
+       Uniform::real("frame_t1", r.t1), vec("frame_lo", field.lo), vec("frame_hi", field.hi)});
 }
 
 void add_clipping(const std::vector<Section>& planes, const Field& field, KernelUnit& unit) {

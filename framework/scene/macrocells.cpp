@@ -27,7 +27,8 @@ void scan(const GridField& grid, Macrocells& m) {
       const auto ys = cells(j, 1), zs = cells(k, 2);
       for (int mz = zs[0]; mz <= zs[1]; ++mz) {
         for (int my = ys[0]; my <= ys[1]; ++my) {
-          const std::size_t first = (std::size_t(mz) * std::size_t(m.dims[1]) + std::size_t(my)) * std::size_t(m.dims[0]);
+          const std::size_t first =
+              (std::size_t(mz) * std::size_t(m.dims[1]) + std::size_t(my)) * std::size_t(m.dims[0]);
           for (std::size_t mx = 0; mx < row_lo.size(); ++mx) {
             m.lo[first + mx] = std::min(m.lo[first + mx], row_lo[mx]);
             m.hi[first + mx] = std::max(m.hi[first + mx], row_hi[mx]);
@@ -47,11 +48,21 @@ std::shared_ptr<const Macrocells> macrocells_of(const GridField& grid) {
   m->lo.assign(count, 3e38f);
   m->hi.assign(count, -3e38f);
   switch (grid.type) {
-    case VoxelType::u8: scan<std::uint8_t>(grid, *m); break;
-    case VoxelType::i8: scan<std::int8_t>(grid, *m); break;
-    case VoxelType::u16: scan<std::uint16_t>(grid, *m); break;
-    case VoxelType::i16: scan<std::int16_t>(grid, *m); break;
-    case VoxelType::f32: scan<float>(grid, *m); break;
+    case VoxelType::u8:
+      scan<std::uint8_t>(grid, *m);
+      break;
+    case VoxelType::i8:
+      scan<std::int8_t>(grid, *m);
+      break;
+    case VoxelType::u16:
+      scan<std::uint16_t>(grid, *m);
+      break;
+    case VoxelType::i16:
+      scan<std::int16_t>(grid, *m);
+      break;
+    case VoxelType::f32:
+      scan<float>(grid, *m);
+      break;
   }
   grid.macrocells = m;
   return m;

@@ -78,7 +78,9 @@ Terms Medium::terms() const {
   return r;
 }
 
-bool Medium::empty(double a, double b) const { return zero_on(*this, a, b, 0, medium_columns) && !dirac_in(*this, a, b); }
+bool Medium::empty(double a, double b) const {
+  return zero_on(*this, a, b, 0, medium_columns) && !dirac_in(*this, a, b);
+}
 
 bool Medium::unshaded(double a, double b) const {
   return zero_on(*this, a, b, column(Term::S_l, 0), column(Term::W_l, 2) + 1) &&

@@ -96,13 +96,12 @@ void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& u
   const bool emits = o.full && (terms.has(Term::E) || terms.has(Term::P));
   const bool surfaces = o.full && (terms.has(Term::tau_s) || terms.has(Term::S_s) || terms.has(Term::W_s));
   const int groups = int(groups_of({}, o, emits, surfaces).size());
-  unit.uniforms.insert(unit.uniforms.end(),
-                       {Uniform::constant_integer("medium_use_nodes", o.nodes ? 1 : 0),
-                        Uniform::constant_integer("medium_groups", groups),
-                        Uniform::constant_integer("medium_emits", emits ? 1 : 0),
-                        Uniform::constant_integer("medium_surfaces", surfaces ? 1 : 0), Uniform::real("medium_lo", o.lo),
-                        Uniform::real("medium_scale", (o.entries - 1) / (o.hi - o.lo)),
-                        Uniform::real("medium_last", o.entries - 1)});
+  unit.uniforms.insert(
+      unit.uniforms.end(),
+      {Uniform::constant_integer("medium_use_nodes", o.nodes ? 1 : 0),
+       Uniform::constant_integer("medium_groups", groups), Uniform::constant_integer("medium_emits", emits ? 1 : 0),
+       Uniform::constant_integer("medium_surfaces", surfaces ? 1 : 0), Uniform::real("medium_lo", o.lo),
+       Uniform::real("medium_scale", (o.entries - 1) / (o.hi - o.lo)), Uniform::real("medium_last", o.entries - 1)});
   // The representation that is not in use keeps its binding with one empty entry.
   if (o.nodes) {
     unit.buffers.push_back(vec4_buffer("medium_table", {}));

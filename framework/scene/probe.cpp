@@ -16,9 +16,11 @@ std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry
                      std::to_string(scene.job.width) + " x " + std::to_string(scene.job.height) + " pixels");
   const PluginEntryInfo& cpu = registry.find("backend", "cpu");
   nlohmann::json values = nlohmann::json::object();
-  std::vector<Parameter> declared(cpu.descriptor->parameters, cpu.descriptor->parameters + cpu.descriptor->parameter_count);
+  std::vector<Parameter> declared(cpu.descriptor->parameters,
+                                  cpu.descriptor->parameters + cpu.descriptor->parameter_count);
   for (const Parameter& p : declared) values[p.name] = nlohmann::json::parse(p.default_value);
-  const auto session = registry.get<BackendPlugin>("backend", "cpu").open(ParameterSet("backend", declared, values), cpu.folder);
+  const auto session =
+      registry.get<BackendPlugin>("backend", "cpu").open(ParameterSet("backend", declared, values), cpu.folder);
   return session->probe(scene.job, x, y);
 }
 

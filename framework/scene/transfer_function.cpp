@@ -30,8 +30,9 @@ Vector3 lerp(const Vector3& a, const Vector3& b, double t) {
 Vector3 Curve::at(double v, bool from_left) const {
   // The first node behind v: strictly greater for the value (right limit), not less for the limit from the left.
   const auto behind =
-      from_left ? std::lower_bound(nodes_.begin(), nodes_.end(), v, [](const Node& n, double x) { return n.value < x; })
-                : std::upper_bound(nodes_.begin(), nodes_.end(), v, [](double x, const Node& n) { return x < n.value; });
+      from_left
+          ? std::lower_bound(nodes_.begin(), nodes_.end(), v, [](const Node& n, double x) { return n.value < x; })
+          : std::upper_bound(nodes_.begin(), nodes_.end(), v, [](double x, const Node& n) { return x < n.value; });
   if (behind == nodes_.begin()) return nodes_.front().x;
   if (behind == nodes_.end()) return nodes_.back().x;
   const Node& a = *(behind - 1);
@@ -64,8 +65,8 @@ void refine(const Node& a, const Node& b, double standard_length, double toleran
   const Vector3 alpha = lerp(a.x, b.x, 0.5);
   double worst = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double chord = 0.5 * (capped_extinction(a.x[c], standard_length, capped) +
-                                capped_extinction(b.x[c], standard_length, capped));
+    const double chord =
+        0.5 * (capped_extinction(a.x[c], standard_length, capped) + capped_extinction(b.x[c], standard_length, capped));
     worst = std::max(worst, std::abs(capped_extinction(alpha[c], standard_length, capped) - chord));
   }
   if (depth == 0 || worst <= tolerance || v <= a.value || v >= b.value) {

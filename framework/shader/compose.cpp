@@ -20,13 +20,20 @@ struct Part {
   const char* file;
 };
 constexpr Part part_list[] = {
-    {From::framework, "compat/glsl.glsl"}, {From::generated, ""},
-    {From::framework, "math.kernel"},      {From::framework, "medium.kernel"},
-    {From::framework, "ray.kernel"},       {From::framework, "shading.kernel"},
-    {From::framework, "segment.kernel"},   {From::framework, "volume.kernel"},
-    {From::sampler, ""},                   {From::framework, "steps.kernel"},
-    {From::framework, "stream.glsl"},      {From::stream, ""},
-    {From::estimator, ""},                 {From::framework, "composite.kernel"},
+    {From::framework, "compat/glsl.glsl"},
+    {From::generated, ""},
+    {From::framework, "math.kernel"},
+    {From::framework, "medium.kernel"},
+    {From::framework, "ray.kernel"},
+    {From::framework, "shading.kernel"},
+    {From::framework, "segment.kernel"},
+    {From::framework, "volume.kernel"},
+    {From::sampler, ""},
+    {From::framework, "steps.kernel"},
+    {From::framework, "stream.glsl"},
+    {From::stream, ""},
+    {From::estimator, ""},
+    {From::framework, "composite.kernel"},
     {From::framework, "march.glsl"},
 };
 

@@ -12,8 +12,8 @@ using nlohmann::json;
 
 struct Volume {
   std::string name;
-  std::string file;  // "" when it is not here
-  json model;        // transfer functions in physical values
+  std::string file;    // "" when it is not here
+  json model;          // transfer functions in physical values
   std::uint64_t page;  // lowered GPU buffer range that cuts it into several pages
 };
 
@@ -28,19 +28,26 @@ std::vector<Volume> volumes() {
     return json{{lo, 0.2, 0.4, 1}, {0.5 * (lo + hi), 0.9, 0.8, 0.6}, {hi, 1, 0.7, 0.3}};
   };
   const std::string ch2 = "/usr/share/mricron/templates/ch2.nii.gz";
-  return {{"engine", shipped("engine.nrrd"), tf({{70, 0}, {90, 0.05}, {140, 0.02}, {180, 0.6}, {255, 0.9}}, colors(0, 255)), 2u << 20},
-          {"ch2", std::ifstream(ch2) ? ch2 : "", tf({{20, 0}, {60, 0.02}, {110, 0.2}, {255, 0.5}}, colors(0, 255)), 1u << 20},
-          {"tooth", shared_data("volumes/tooth.nhdr"), tf({{400, 0}, {700, 0.1}, {1300, 0.8}}, colors(300, 1300)), 1u << 20},
-          {"cranium", shared_data("volumes/cranium_ct.nrrd"), tf({{-300, 0}, {-100, 0.02}, {200, 0.03}, {400, 0.5}, {2000, 0.9}}, colors(-300, 2000)), 4u << 20},
-          {"hydrogen", shipped("hydrogen.nrrd"), tf({{-0.6, 0.2}, {-0.05, 0}, {0.05, 0}, {0.6, 0.3}}, colors(-0.6, 0.6)), 1u << 18}};
+  return {{"engine", shipped("engine.nrrd"),
+           tf({{70, 0}, {90, 0.05}, {140, 0.02}, {180, 0.6}, {255, 0.9}}, colors(0, 255)), 2u << 20},
+          {"ch2", std::ifstream(ch2) ? ch2 : "", tf({{20, 0}, {60, 0.02}, {110, 0.2}, {255, 0.5}}, colors(0, 255)),
+           1u << 20},
+          {"tooth", shared_data("volumes/tooth.nhdr"), tf({{400, 0}, {700, 0.1}, {1300, 0.8}}, colors(300, 1300)),
+           1u << 20},
+          {"cranium", shared_data("volumes/cranium_ct.nrrd"),
+           tf({{-300, 0}, {-100, 0.02}, {200, 0.03}, {400, 0.5}, {2000, 0.9}}, colors(-300, 2000)), 4u << 20},
+          {"hydrogen", shipped("hydrogen.nrrd"),
+           tf({{-0.6, 0.2}, {-0.05, 0}, {0.05, 0}, {0.6, 0.3}}, colors(-0.6, 0.6)), 1u << 18}};
 }
 
 json config_of(const Volume& v, bool shaded, bool clipped, bool skipping) {
   json c = {{"data", {{"type", v.file.ends_with(".nii.gz") ? "nifti" : "nrrd"}, {"file", v.file}}},
             {"optical_model", v.model},
             {"estimator", {{"type", "direct"}}},
-            {"lights", {{{"type", "head"}}, {{"type", "directional"}, {"direction", {1, -0.5, 0.8}}, {"color", {0.6, 0.5, 0.4}}},
-                        {{"type", "point"}, {"frame", "data"}, {"position", {-0.5, 1.5, 0.6}}, {"color", {0.2, 0.3, 0.5}}}}},
+            {"lights",
+             {{{"type", "head"}},
+              {{"type", "directional"}, {"direction", {1, -0.5, 0.8}}, {"color", {0.6, 0.5, 0.4}}},
+              {{"type", "point"}, {"frame", "data"}, {"position", {-0.5, 1.5, 0.6}}, {"color", {0.2, 0.3, 0.5}}}}},
             {"camera", {{"type", "perspective"}, {"position", {1.3, -2.2, 1.1}}, {"up", {0, 0, 1}}, {"fov_deg", 34}}},
             {"sampling", {{"type", "uniform"}, {"step", 0.73}, {"skipping", skipping}, {"termination", 1e-3}}},
             {"image", {{"size", {72, 52}}, {"background", {0.1, 0.2, 0.3}}}}};
@@ -98,7 +105,8 @@ TEST_P(Agreement, SameBitsOnEveryTarget) {
       }
     }
   }
-  std::printf("%s: worst difference %g over %d comparisons, %d not supported\n", v.name.c_str(), worst, compared, missing);
+  std::printf("%s: worst difference %g over %d comparisons, %d not supported\n", v.name.c_str(), worst, compared,
+              missing);
   EXPECT_GT(compared, 0);
 }
 
@@ -120,9 +128,18 @@ void PrintTo(const Variation& v, std::ostream* out) { *out << v.name; }
 class AgreementOfVariations : public testing::TestWithParam<Variation> {};
 
 TEST_P(AgreementOfVariations, SameBitsOnEveryTarget) {
-  json base = {{"data", {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {30, 33, 27}}, {"voxel_type", "int8"}, {"range", {0, 1}}}},
-               {"optical_model", {{"type", "absorption_emission"}, {"opacity", {{0.2, 0}, {0.5, 0.1}, {0.8, 0.4}}},
-                                  {"color", {{0, 0.2, 0.5, 1}, {1, 1, 0.6, 0.1}}}, {"length_unit", "voxel"}, {"shaded", true}}},
+  json base = {{"data",
+                {{"type", "procedural"},
+                 {"field", "marschner_lobb"},
+                 {"size", {30, 33, 27}},
+                 {"voxel_type", "int8"},
+                 {"range", {0, 1}}}},
+               {"optical_model",
+                {{"type", "absorption_emission"},
+                 {"opacity", {{0.2, 0}, {0.5, 0.1}, {0.8, 0.4}}},
+                 {"color", {{0, 0.2, 0.5, 1}, {1, 1, 0.6, 0.1}}},
+                 {"length_unit", "voxel"},
+                 {"shaded", true}}},
                {"estimator", {{"type", "direct"}}},
                {"illumination", {{{"type", "blinn_phong"}}}},
                {"camera", {{"type", "perspective"}, {"position", {1.2, -2.0, 0.9}}, {"up", {0, 0, 1}}}},
@@ -131,24 +148,36 @@ TEST_P(AgreementOfVariations, SameBitsOnEveryTarget) {
   double worst = 0;
   int compared = 0, missing = 0;
   compare_targets(patched(base, GetParam().patch), GetParam().name, worst, compared, missing);
-  std::printf("%s: worst difference %g over %d comparisons, %d not supported\n", GetParam().name.c_str(), worst, compared,
-              missing);
+  std::printf("%s: worst difference %g over %d comparisons, %d not supported\n", GetParam().name.c_str(), worst,
+              compared, missing);
   EXPECT_GT(compared, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Volumes, Agreement, testing::ValuesIn(volumes()), [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Volumes, Agreement, testing::ValuesIn(volumes()),
+                         [](const auto& instance) { return instance.param.name; });
 INSTANTIATE_TEST_SUITE_P(
     Variations, AgreementOfVariations,
     testing::Values(
-        Variation{"rgb_extinction", {{"optical_model", {{"opacity", nullptr}, {"extinction", {{0.2, 0, 0, 0}, {0.6, 0.1, 0.2, 0.4}, {1, 0.9, 0.5, 0.1}}}}}}},
-        Variation{"rgb_unshaded", {{"optical_model", {{"opacity", nullptr}, {"shaded", false}, {"extinction", {{0.2, 0, 0, 0}, {0.6, 0.1, 0.2, 0.4}, {1, 0.9, 0.5, 0.1}}}}}}},
+        Variation{
+            "rgb_extinction",
+            {{"optical_model",
+              {{"opacity", nullptr}, {"extinction", {{0.2, 0, 0, 0}, {0.6, 0.1, 0.2, 0.4}, {1, 0.9, 0.5, 0.1}}}}}}},
+        Variation{"rgb_unshaded",
+                  {{"optical_model",
+                    {{"opacity", nullptr},
+                     {"shaded", false},
+                     {"extinction", {{0.2, 0, 0, 0}, {0.6, 0.1, 0.2, 0.4}, {1, 0.9, 0.5, 0.1}}}}}}},
         Variation{"tf_nodes", {{"optical_model", {{"tf", "nodes"}}}}},
         Variation{"tf_nodes_unshaded", {{"optical_model", {{"tf", "nodes"}, {"shaded", false}}}}},
         Variation{"opacity_interpolation", {{"optical_model", {{"interpolation", "opacity"}}}}},
         Variation{"emission", {{"optical_model", {{"emission", {{0, 0, 0, 0}, {1, 0.1, 0.2, 0.3}}}}}}},
-        Variation{"prescribed_light", {{"illumination", {{{"type", "prescribed"}, {"k1", {0.2, 0.4, 0.6}}, {"b1", {0.3, 0.1, 0}}}}}}},
+        Variation{"prescribed_light",
+                  {{"illumination", {{{"type", "prescribed"}, {"k1", {0.2, 0.4, 0.6}}, {"b1", {0.3, 0.1, 0}}}}}}},
         Variation{"jitter", {{"sampling", {{"jitter", 1}}}, {"seed", 12345}}},
-        Variation{"orthographic", {{"camera", {{"type", "orthographic"}, {"position", {0.3, -2.0, 0.9}}, {"fov_deg", nullptr}, {"height", 1.7}}}}},
+        Variation{
+            "orthographic",
+            {{"camera",
+              {{"type", "orthographic"}, {"position", {0.3, -2.0, 0.9}}, {"fov_deg", nullptr}, {"height", 1.7}}}}},
         Variation{"formula", {{"data", {{"evaluate", "formula"}}}}},
         Variation{"formula_radial", {{"data", {{"evaluate", "formula"}, {"field", "radial"}, {"scale", 0.6}}}}},
         Variation{"formula_sinusoid", {{"data", {{"evaluate", "formula"}, {"field", "sinusoid"}, {"omega", 9}}}}},

@@ -47,7 +47,8 @@ struct Count {
 void check_metric(const PluginEntryInfo& e, const Parameter& p, Count& count) {
   auto& metric = registry().get<MetricPlugin>("metric", e.name);
   json values = json::object();
-  const std::vector<Parameter> declared(e.descriptor->parameters, e.descriptor->parameters + e.descriptor->parameter_count);
+  const std::vector<Parameter> declared(e.descriptor->parameters,
+                                        e.descriptor->parameters + e.descriptor->parameter_count);
   for (const Parameter& d : declared) values[d.name] = json::parse(d.default_value);
   FrameImage a, b;
   a.width = b.width = 2;
@@ -83,9 +84,11 @@ void check_parameter(const PluginEntryInfo& e, const Parameter& p, Count& count)
   json changed = config;
   section_of(changed, e.kind, e.name)[p.name] = json::parse(p.live_value);
   ASSERT_NE(config, changed) << what << ": live_value is the example's own value";
-  const FrameImage before = render(config, target_of(e, config)).image, after = render(changed, target_of(e, changed)).image;
+  const FrameImage before = render(config, target_of(e, config)).image,
+                   after = render(changed, target_of(e, changed)).image;
   if (p.affects == Affects::pixels) {
-    const bool same = before.width == after.width && before.height == after.height && differing_values(before, after) == 0;
+    const bool same =
+        before.width == after.width && before.height == after.height && differing_values(before, after) == 0;
     EXPECT_FALSE(same) << what << " is declared to affect pixels and changes none";
     ++count.alive;
   } else {
@@ -126,8 +129,8 @@ TEST_P(EveryPlugin, ParametersKeepTheirWord) {
   } catch (const NotSupported& reason) {
     GTEST_SKIP() << "not supported: " << reason.what();
   }
-  std::printf("%s/%s: %d parameters change the image, %d change no bit, %d name files, devices or nothing\n", e.kind.c_str(),
-              e.name.c_str(), count.alive, count.quiet, count.skipped);
+  std::printf("%s/%s: %d parameters change the image, %d change no bit, %d name files, devices or nothing\n",
+              e.kind.c_str(), e.name.c_str(), count.alive, count.quiet, count.skipped);
 }
 
 // A precondition of the tests above, and their negative control: a patch that no parameter reads changes nothing.

@@ -15,13 +15,17 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 json config() {
-  return {{"data", {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {24, 26, 22}}, {"voxel_type", "uint8"}}},
-          {"optical_model", {{"type", "absorption_emission"}, {"opacity", {{0, 0}, {0.4, 0.02}, {1, 0.4}}},
-                             {"color", {{0, 0.2, 0.5, 1}, {1, 1, 0.6, 0.1}}}, {"length_unit", "voxel"}}},
-          {"estimator", {{"type", "direct"}}},
-          {"camera", {{"type", "perspective"}, {"position", {1.2, -2.0, 0.9}}, {"up", {0, 0, 1}}}},
-          {"sampling", {{"type", "uniform"}, {"step", 0.61}}},
-          {"image", {{"size", {48, 40}}}}};
+  return {
+      {"data", {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {24, 26, 22}}, {"voxel_type", "uint8"}}},
+      {"optical_model",
+       {{"type", "absorption_emission"},
+        {"opacity", {{0, 0}, {0.4, 0.02}, {1, 0.4}}},
+        {"color", {{0, 0.2, 0.5, 1}, {1, 1, 0.6, 0.1}}},
+        {"length_unit", "voxel"}}},
+      {"estimator", {{"type", "direct"}}},
+      {"camera", {{"type", "perspective"}, {"position", {1.2, -2.0, 0.9}}, {"up", {0, 0, 1}}}},
+      {"sampling", {{"type", "uniform"}, {"step", 0.61}}},
+      {"image", {{"size", {48, 40}}}}};
 }
 
 /// A copy of a kernel folder in which `from` in `file` became `to`.
@@ -65,9 +69,10 @@ TEST_P(PlantedFault, IsCaught) {
     ASSERT_EQ(differing_values(right, same), 0u) << "without a fault the backends agree";
     std::unique_ptr<FaultyFolder> folder;
     const FrameImage wrong = render(config(), vulkan, [&](FrameJob& job) {
-      folder = std::make_unique<FaultyFolder>(job.kernel_folder, fault.file, fault.from, fault.to);
-      job.kernel_folder = folder->path();
-    }).image;
+                               folder =
+                                   std::make_unique<FaultyFolder>(job.kernel_folder, fault.file, fault.from, fault.to);
+                               job.kernel_folder = folder->path();
+                             }).image;
     std::printf("%s: largest difference %.3e in %zu values\n", fault.name.c_str(), largest_difference(right, wrong),
                 differing_values(right, wrong));
     EXPECT_GT(differing_values(right, wrong), 0u);
@@ -79,15 +84,16 @@ TEST_P(PlantedFault, IsCaught) {
 
 INSTANTIATE_TEST_SUITE_P(
     Faults, PlantedFault,
-    testing::Values(
-        Fault{"wrong_step", "steps.kernel", "real s = rmax(to_real(i) * R(frame_step) - offset, R(0.0));",
-              "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
-        Fault{"last_segment_with_full_length", "steps.kernel", "return select(regular, R(frame_step), inner);",
-              "return R(frame_step);"},
-        Fault{"filter_weights_of_8_bits", "volume.kernel", "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
-              "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z - to_real(c.z));"},
-        Fault{"half_voxel_shift", "volume.kernel", "real x = rmin(rmax(p.x, R(0.0)), to_real(I(nx - 1)));",
-              "real x = rmin(rmax(p.x + R(0.5), R(0.0)), to_real(I(nx - 1)));"}),
+    testing::Values(Fault{"wrong_step", "steps.kernel", "real s = rmax(to_real(i) * R(frame_step) - offset, R(0.0));",
+                          "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
+                    Fault{"last_segment_with_full_length", "steps.kernel",
+                          "return select(regular, R(frame_step), inner);", "return R(frame_step);"},
+                    Fault{"filter_weights_of_8_bits", "volume.kernel",
+                          "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
+                          "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z "
+                          "- to_real(c.z));"},
+                    Fault{"half_voxel_shift", "volume.kernel", "real x = rmin(rmax(p.x, R(0.0)), to_real(I(nx - 1)));",
+                          "real x = rmin(rmax(p.x + R(0.5), R(0.0)), to_real(I(nx - 1)));"}),
     [](const auto& instance) { return instance.param.name; });
 
 // A contracted multiply-add differs in the last bit only; the comparison must see it.
@@ -110,7 +116,8 @@ TEST(PlantedFault, FmaIsRefusedInStrictMode) {
     EXPECT_THROW(render(config(), vulkan,
                         [&](FrameJob& job) {
                           folder = std::make_unique<FaultyFolder>(job.kernel_folder, "volume.kernel",
-                                                                  "{ return a + w * (b - a); }", "{ return fma(w, b - a, a); }");
+                                                                  "{ return a + w * (b - a); }",
+                                                                  "{ return fma(w, b - a, a); }");
                           job.kernel_folder = folder->path();
                         }),
                  std::exception);

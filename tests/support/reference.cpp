@@ -5,9 +5,7 @@
 namespace dvrlab::test {
 
 std::array<double, 3> nodes_at(const nlohmann::json& nodes, double v) {
-  const auto x = [&](std::size_t k, std::size_t c) {
-    return nodes[k][nodes[k].size() == 2 ? 1 : c + 1].get<double>();
-  };
+  const auto x = [&](std::size_t k, std::size_t c) { return nodes[k][nodes[k].size() == 2 ? 1 : c + 1].get<double>(); };
   std::size_t k = 0;
   while (k < nodes.size() && nodes[k][0].get<double>() <= v) ++k;
   std::array<double, 3> r{};
@@ -27,7 +25,8 @@ std::array<double, 3> nodes_at(const nlohmann::json& nodes, double v) {
 RayIntegral integrate(const nlohmann::json& extinction, const nlohmann::json& color,
                       const std::function<double(double)>& v, double D, int panels) {
   // 5-point Gauss-Legendre on [0, 1]
-  constexpr std::array<double, 5> x = {0.046910077030668, 0.2307653449471585, 0.5, 0.7692346550528415, 0.953089922969332};
+  constexpr std::array<double, 5> x = {0.046910077030668, 0.2307653449471585, 0.5, 0.7692346550528415,
+                                       0.953089922969332};
   constexpr std::array<double, 5> w = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
                                        0.118463442528095};
   RayIntegral r;

@@ -13,10 +13,12 @@
 namespace dvrlab::test {
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {
-      {"cpu scalar", {{"type", "cpu"}, {"isa", "scalar"}}}, {"cpu sse4.2", {{"type", "cpu"}, {"isa", "sse4.2"}}},
-      {"cpu avx2", {{"type", "cpu"}, {"isa", "avx2"}}},     {"cpu avx512", {{"type", "cpu"}, {"isa", "avx512"}}},
-      {"vulkan", {{"type", "vulkan"}}},                     {"opengl", {{"type", "opengl"}}}};
+  static const std::vector<Target> all = {{"cpu scalar", {{"type", "cpu"}, {"isa", "scalar"}}},
+                                          {"cpu sse4.2", {{"type", "cpu"}, {"isa", "sse4.2"}}},
+                                          {"cpu avx2", {{"type", "cpu"}, {"isa", "avx2"}}},
+                                          {"cpu avx512", {{"type", "cpu"}, {"isa", "avx512"}}},
+                                          {"vulkan", {{"type", "vulkan"}}},
+                                          {"opengl", {{"type", "opengl"}}}};
   return all;
 }
 
@@ -80,7 +82,8 @@ std::size_t differing_values(const FrameImage& a, const FrameImage& b) {
 
 std::string shared_data(const std::string& relative) {
   const char* set = std::getenv("DVRLAB_SHARED_DATA");
-  const std::filesystem::path file = std::filesystem::path(set != nullptr ? set : DVRLAB_SHARED_DATA_DEFAULT) / relative;
+  const std::filesystem::path file =
+      std::filesystem::path(set != nullptr ? set : DVRLAB_SHARED_DATA_DEFAULT) / relative;
   return std::filesystem::exists(file) ? std::filesystem::absolute(file).lexically_normal().string() : "";
 }
 

@@ -16,7 +16,8 @@ json ray_config(const json& field, double length, double step) {
   data.update(field);
   return {{"data", data},
           {"estimator", {{"type", "direct"}}},
-          {"camera", {{"type", "ray"}, {"frame", "world"}, {"origin", {0, 0, 0}}, {"direction", {1, 0, 0}}, {"t", {0, length}}}},
+          {"camera",
+           {{"type", "ray"}, {"frame", "world"}, {"origin", {0, 0, 0}}, {"direction", {1, 0, 0}}, {"t", {0, length}}}},
           {"sampling", {{"type", "uniform"}, {"step", step}, {"unit", "world"}, {"termination", 0}}},
           {"image", {{"size", {1, 1}}}}};
 }
@@ -134,14 +135,23 @@ TEST_P(Truth, GoldenLevoySphereConverges) {
   const double D = ray.at("D");
   std::vector<double> e;
   for (int n : {32, 128, 512, 2048}) {
-    json config = ray_config({{"field", "radial"}, {"center", {ray.at("lc"), ray.at("p"), 0}}, {"scale", ray.at("scale")},
+    json config = ray_config({{"field", "radial"},
+                              {"center", {ray.at("lc"), ray.at("p"), 0}},
+                              {"scale", ray.at("scale")},
                               {"offset", ray.at("offset")}},
                              D, D / n);
-    config["optical_model"] = {{"type", "absorption_emission"}, {"tf", "nodes"},          {"shaded", true},
-                               {"opacity", params.at("alpha")}, {"color", params.at("color")}, {"dl_std", params.at("dl_std")}};
+    config["optical_model"] = {{"type", "absorption_emission"},
+                               {"tf", "nodes"},
+                               {"shaded", true},
+                               {"opacity", params.at("alpha")},
+                               {"color", params.at("color")},
+                               {"dl_std", params.at("dl_std")}};
     config["lights"] = {{{"type", "head"}}};
-    config["illumination"] = {{{"type", "blinn_phong"}, {"ambient", shade.at("ka")}, {"diffuse", shade.at("kd")},
-                               {"specular", shade.at("ks")}, {"shininess", shade.at("n")}}};
+    config["illumination"] = {{{"type", "blinn_phong"},
+                               {"ambient", shade.at("ka")},
+                               {"diffuse", shade.at("kd")},
+                               {"specular", shade.at("ks")},
+                               {"shininess", shade.at("n")}}};
     config["image"]["background"] = g->at("background");
     SKIP_WHEN_NOT_SUPPORTED(e.push_back(error(config, expected(*g))))
   }
@@ -155,7 +165,8 @@ TEST_P(Truth, GoldenLevoySphereConverges) {
 TEST_P(Truth, DirectIsOfSecondOrder) {
   const json tau = {{0, 0.5}, {1, 5.5}}, color = {{0, 0.1, 0.9, 0.5}, {1, 0.9, 0.2, 0.4}};
   const double v0 = 0.0037, v1 = 0.9963;
-  const RayIntegral truth = integrate(tau, color, [&](double l) { return v0 + (v1 - v0) * l; }, 1.0, 20000);
+  const RayIntegral truth = integrate(
+      tau, color, [&](double l) { return v0 + (v1 - v0) * l; }, 1.0, 20000);
   std::vector<double> e;
   for (int n : {8, 16, 32, 64}) {
     json config = ray_config(ramp_field(v0, v1, 1.0), 1.0, 1.0 / n);

@@ -27,26 +27,34 @@ template <class E>
 int make(void* frame, const dvr_bindings* bindings, dvr_calls* calls, char* missing) {
   missing[0] = 0;
   new (frame) E(bindings, missing);
-  calls->estimator.integrate = [](const void* f, const dvr_packet* p, dvr_chunk* c) {
-    local<E>(f).integrate(p, c);
-  };
+  calls->estimator.integrate = [](const void* f, const dvr_packet* p, dvr_chunk* c) { local<E>(f).integrate(p, c); };
   return missing[0] != 0;
 }
 
 int init(void* frame, const dvr_bindings* bindings, int features, dvr_calls* calls, char* missing) {
   switch (features & (DVR_FEATURE_RGB | DVR_FEATURE_FULL)) {
-    case 0: return make<Estimator_grey>(frame, bindings, calls, missing);
-    case DVR_FEATURE_RGB: return make<Estimator_rgb>(frame, bindings, calls, missing);
-    case DVR_FEATURE_FULL: return make<Estimator_full_grey>(frame, bindings, calls, missing);
-    default: return make<Estimator_full_rgb>(frame, bindings, calls, missing);
+    case 0:
+      return make<Estimator_grey>(frame, bindings, calls, missing);
+    case DVR_FEATURE_RGB:
+      return make<Estimator_rgb>(frame, bindings, calls, missing);
+    case DVR_FEATURE_FULL:
+      return make<Estimator_full_grey>(frame, bindings, calls, missing);
+    default:
+      return make<Estimator_full_rgb>(frame, bindings, calls, missing);
   }
 }
 
 constexpr unsigned larger(unsigned a, unsigned b) { return a < b ? b : a; }
-const dvr_kernel_module module = {
-    DVR_KERNEL_ABI, "estimator", DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
-    larger(larger(sizeof(Estimator_grey), sizeof(Estimator_rgb)), larger(sizeof(Estimator_full_grey), sizeof(Estimator_full_rgb))),
-    alignof(Estimator_full_rgb), 0, &init};
+const dvr_kernel_module module = {DVR_KERNEL_ABI,
+                                  "estimator",
+                                  DVR_KERNEL_NAME,
+                                  W,
+                                  DVR_PACKET_COLUMNS,
+                                  larger(larger(sizeof(Estimator_grey), sizeof(Estimator_rgb)),
+                                         larger(sizeof(Estimator_full_grey), sizeof(Estimator_full_rgb))),
+                                  alignof(Estimator_full_rgb),
+                                  0,
+                                  &init};
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const dvr_kernel_module* dvrlab_kernel_module() { return &module; }

@@ -4,8 +4,8 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/math.kernel"
 #include "framework/kernel/medium.kernel"
-#include "framework/kernel/shading.kernel"
 #include "framework/kernel/segment.kernel"
+#include "framework/kernel/shading.kernel"
 #include DVR_KERNEL_FILE
 
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.

@@ -242,8 +242,9 @@ DVR_INLINE vec4r fetch4(table4 b, inti i) {
 /// where one multiply-add serves four channels of a quarter of the lanes.
 DVR_INLINE vec4r fetch4_affine(table4 b, inti i, real w) {
   const lane_index n(i);
-#define DVR_ROW(j, imm) \
-  vblock(vf(block4(b.data, n, j, 8, 0)) + vf(block4(b.data, n, j, 8, 4)) * vf(DVR_B(shuffle_ps)(vblock(w.v), vblock(w.v), imm)))
+#define DVR_ROW(j, imm)                   \
+  vblock(vf(block4(b.data, n, j, 8, 0)) + \
+         vf(block4(b.data, n, j, 8, 4)) * vf(DVR_B(shuffle_ps)(vblock(w.v), vblock(w.v), imm)))
   return transpose4(DVR_ROW(0, 0x00), DVR_ROW(1, 0x55), DVR_ROW(2, 0xaa), DVR_ROW(3, 0xff));
 #undef DVR_ROW
 }

@@ -18,9 +18,7 @@ int make(void* frame, const dvr_bindings* bindings, dvr_calls* calls, char* miss
   missing[0] = 0;
   new (frame) M(bindings, missing);
   calls->march.begin = [](const void* f, int x, int y, dvr_packet* p) { local<M>(f).begin(x, y, p); };
-  calls->march.composite = [](const void* f, dvr_packet* p, const dvr_chunk* c) {
-    local<M>(f).run(p, c);
-  };
+  calls->march.composite = [](const void* f, dvr_packet* p, const dvr_chunk* c) { local<M>(f).run(p, c); };
   calls->march.finish = [](const void* f, dvr_packet* p) { local<M>(f).finish(p); };
   return missing[0] != 0;
 }
@@ -30,8 +28,8 @@ int init(void* frame, const dvr_bindings* bindings, int features, dvr_calls* cal
                                            : make<March_grey>(frame, bindings, calls, missing);
 }
 
-const dvr_kernel_module module = {DVR_KERNEL_ABI,     "march",           DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
-                                  sizeof(March_grey), alignof(March_rgb), 0, &init};
+const dvr_kernel_module module = {
+    DVR_KERNEL_ABI, "march", DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS, sizeof(March_grey), alignof(March_rgb), 0, &init};
 static_assert(sizeof(March_grey) == sizeof(March_rgb));
 }  // namespace
 

@@ -115,8 +115,8 @@ DVR_INLINE inti shl(inti a, int n) { return {vi(vu(a.v) << n)}; }
 DVR_INLINE inti shr(inti a, int n) { return {vi(vu(a.v) >> n)}; }  // logical
 
 #if defined(DVR_ISA_avx512)
-#define DVR_COMPARE(op, f, i)                                                                                   \
-  DVR_INLINE mask operator op(real a, real b) { return {_mm512_cmp_ps_mask(__m512(a.v), __m512(b.v), f)}; }      \
+#define DVR_COMPARE(op, f, i)                                                                               \
+  DVR_INLINE mask operator op(real a, real b) { return {_mm512_cmp_ps_mask(__m512(a.v), __m512(b.v), f)}; } \
   DVR_INLINE mask operator op(inti a, inti b) { return {_mm512_cmp_epi32_mask(__m512i(a.v), __m512i(b.v), i)}; }
 DVR_COMPARE(<, _CMP_LT_OQ, _MM_CMPINT_LT)
 DVR_COMPARE(<=, _CMP_LE_OQ, _MM_CMPINT_LE)
@@ -128,7 +128,7 @@ DVR_INLINE inti select(mask m, inti a, inti b) {
   return {vi(_mm512_mask_blend_epi32(m.m, __m512i(b.v), __m512i(a.v)))};
 }
 #else
-#define DVR_COMPARE(op)                                                   \
+#define DVR_COMPARE(op)                                                    \
   DVR_INLINE mask operator op(real a, real b) { return {vm(a.v op b.v)}; } \
   DVR_INLINE mask operator op(inti a, inti b) { return {vm(a.v op b.v)}; }
 DVR_COMPARE(<)

@@ -3,7 +3,7 @@
 // one variant per voxel type; a walking one (walk_start, walk_next, walk_gradient) has one.
 #include "framework/kernel/cpu/kernel.h"
 
-#define DVR_RGB 0   // the sampler asks the medium only where it is shaded: the same for grey and RGB
+#define DVR_RGB 0  // the sampler asks the medium only where it is shaded: the same for grey and RGB
 #define DVR_FULL 0
 
 namespace {
@@ -51,11 +51,16 @@ int init(void* frame, const dvr_bindings* bindings, int, dvr_calls* calls, char*
   for (int k = 0; k < bindings->buffer_count; ++k) {
     if (strcmp(bindings->buffers[k].name, DVR_KERNEL_NAME "_voxels") != 0) continue;
     switch (bindings->buffers[k].element) {
-      case DVR_ELEMENT_U8: return make<Sampler_u8>(frame, bindings, calls, missing);
-      case DVR_ELEMENT_I8: return make<Sampler_i8>(frame, bindings, calls, missing);
-      case DVR_ELEMENT_U16: return make<Sampler_u16>(frame, bindings, calls, missing);
-      case DVR_ELEMENT_I16: return make<Sampler_i16>(frame, bindings, calls, missing);
-      default: break;
+      case DVR_ELEMENT_U8:
+        return make<Sampler_u8>(frame, bindings, calls, missing);
+      case DVR_ELEMENT_I8:
+        return make<Sampler_i8>(frame, bindings, calls, missing);
+      case DVR_ELEMENT_U16:
+        return make<Sampler_u16>(frame, bindings, calls, missing);
+      case DVR_ELEMENT_I16:
+        return make<Sampler_i16>(frame, bindings, calls, missing);
+      default:
+        break;
     }
   }
 #endif
@@ -74,8 +79,8 @@ typedef Sampler_f32 largest;
 constexpr unsigned walk_bytes = 0;
 #endif
 
-const dvr_kernel_module module = {DVR_KERNEL_ABI, "sampler", DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS,
-                                  sizeof(largest), alignof(largest), walk_bytes, &init};
+const dvr_kernel_module module = {DVR_KERNEL_ABI,  "sampler",        DVR_KERNEL_NAME, W,    DVR_PACKET_COLUMNS,
+                                  sizeof(largest), alignof(largest), walk_bytes,      &init};
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const dvr_kernel_module* dvrlab_kernel_module() { return &module; }

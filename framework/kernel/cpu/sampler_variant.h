@@ -90,8 +90,7 @@ struct DVR_STRUCT : kernel_base {
       } else {
         for (int k = 1; k <= steps; ++k) {
           const real v = load(c->v + k * W);
-          if (any_lane(medium_shaded(v, v) && load(c->len + (k - 1) * W) > R(0.0f)))
-            gradient(c, k, o, d);
+          if (any_lane(medium_shaded(v, v) && load(c->len + (k - 1) * W) > R(0.0f))) gradient(c, k, o, d);
         }
       }
     }

@@ -6,11 +6,13 @@ using namespace dvrlab;
 using enum ParameterType;
 
 const Parameter parameters[] = {
-    {"ambient", number, "", "0.2", "[0,inf)", "k_a: factor of the colour without any light.", Affects::pixels, "", "0.4"},
+    {"ambient", number, "", "0.2", "[0,inf)", "k_a: factor of the colour without any light.", Affects::pixels, "",
+     "0.4"},
     {"diffuse", number, "", "0.7", "[0,inf)", "k_d: factor of |N.L|.", Affects::pixels, "", "0.3"},
     {"specular", number, "", "0.3", "[0,inf)", "k_s: factor of |N.H|^shininess, added uncoloured.", Affects::pixels, "",
      "0.1"},
-    {"shininess", integer, "", "20", "[1,1024]", "Exponent of the highlight: a whole number.", Affects::pixels, "", "5"},
+    {"shininess", integer, "", "20", "[1,1024]", "Exponent of the highlight: a whole number.", Affects::pixels, "",
+     "5"},
     {"two_sided", boolean, "", "true", "", "Both sides of a surface are lit; otherwise only the one facing the light.",
      Affects::pixels, "", "false"},
     {"gradient_eps", number, "value/length", "1e-6", "[0,inf)",

@@ -11,7 +11,7 @@ using enum ParameterType;
 // m acts on the unshaded source P only: its liveness is shown with an unshaded model.
 #define UNSHADED R"({"optical_model":{"shaded":false}})"
 #define END_PARAMETER(name, value, what, live_in) \
-  {name, vector3, "", value, "[0,inf)", what, Affects::pixels, live_in, "[0.3,0.6,0.9]"}
+  { name, vector3, "", value, "[0,inf)", what, Affects::pixels, live_in, "[0.3,0.6,0.9]" }
 const Parameter parameters[] = {
     END_PARAMETER("m0", "[1,1,1]", "m (factor of P) where the ray enters.", UNSHADED),
     END_PARAMETER("m1", "[1,1,1]", "m where the ray leaves.", UNSHADED),

@@ -7,11 +7,16 @@ using namespace dvrlab;
 
 Element element_of(VoxelType t) {
   switch (t) {
-    case VoxelType::u8: return Element::u8;
-    case VoxelType::i8: return Element::i8;
-    case VoxelType::u16: return Element::u16;
-    case VoxelType::i16: return Element::i16;
-    case VoxelType::f32: return Element::f32;
+    case VoxelType::u8:
+      return Element::u8;
+    case VoxelType::i8:
+      return Element::i8;
+    case VoxelType::u16:
+      return Element::u16;
+    case VoxelType::i16:
+      return Element::i16;
+    case VoxelType::f32:
+      return Element::f32;
   }
   return Element::f32;
 }
