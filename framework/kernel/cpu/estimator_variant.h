@@ -1,12 +1,15 @@
 // One variant of the estimator module (not guarded).
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
+// The order of the texts matters.
+// clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/math.kernel"
 #include "framework/kernel/medium.kernel"
-#include "framework/kernel/segment.kernel"
 #include "framework/kernel/shading.kernel"
+#include "framework/kernel/segment.kernel"
 #include DVR_KERNEL_FILE
+  // clang-format on
 
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
   KFN void integrate(const dvr_packet* p, dvr_chunk* c) {

@@ -1,11 +1,14 @@
 // Grey or RGB variant of the march module (not guarded).
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
-#include "framework/kernel/composite.kernel"
+// The order of the texts matters.
+// clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/math.kernel"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
+#include "framework/kernel/composite.kernel"
+  // clang-format on
 
   KFN static void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
     store(p[0], a.x);

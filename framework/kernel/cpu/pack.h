@@ -141,11 +141,29 @@ DVR_INLINE inti select(mask m, inti a, inti b) { return {m.m ? a.v : b.v}; }
 #endif
 #undef DVR_COMPARE
 
-// Words whose meaning at NaN and signed zero is fixed by select, so that every backend agrees.
+// Words whose meaning at NaN and signed zero is fixed as a select, so that every backend agrees: the smaller is
+// b < a ? b : a, the larger a < b ? b : a, which is what the instructions min(b, a) and max(b, a) do.
+#if defined(DVR_ISA_avx512)
+DVR_INLINE real rmin(real a, real b) { return {vf(_mm512_min_ps(__m512(b.v), __m512(a.v)))}; }
+DVR_INLINE real rmax(real a, real b) { return {vf(_mm512_max_ps(__m512(b.v), __m512(a.v)))}; }
+DVR_INLINE inti imin(inti a, inti b) { return {vi(_mm512_min_epi32(__m512i(b.v), __m512i(a.v)))}; }
+DVR_INLINE inti imax(inti a, inti b) { return {vi(_mm512_max_epi32(__m512i(b.v), __m512i(a.v)))}; }
+#elif defined(DVR_ISA_avx2)
+DVR_INLINE real rmin(real a, real b) { return {vf(_mm256_min_ps(__m256(b.v), __m256(a.v)))}; }
+DVR_INLINE real rmax(real a, real b) { return {vf(_mm256_max_ps(__m256(b.v), __m256(a.v)))}; }
+DVR_INLINE inti imin(inti a, inti b) { return {vi(_mm256_min_epi32(__m256i(b.v), __m256i(a.v)))}; }
+DVR_INLINE inti imax(inti a, inti b) { return {vi(_mm256_max_epi32(__m256i(b.v), __m256i(a.v)))}; }
+#elif defined(DVR_ISA_sse4_2)
+DVR_INLINE real rmin(real a, real b) { return {vf(_mm_min_ps(__m128(b.v), __m128(a.v)))}; }
+DVR_INLINE real rmax(real a, real b) { return {vf(_mm_max_ps(__m128(b.v), __m128(a.v)))}; }
+DVR_INLINE inti imin(inti a, inti b) { return {vi(_mm_min_epi32(__m128i(b.v), __m128i(a.v)))}; }
+DVR_INLINE inti imax(inti a, inti b) { return {vi(_mm_max_epi32(__m128i(b.v), __m128i(a.v)))}; }
+#else
 DVR_INLINE real rmin(real a, real b) { return select(b < a, b, a); }
 DVR_INLINE real rmax(real a, real b) { return select(a < b, b, a); }
 DVR_INLINE inti imin(inti a, inti b) { return select(b < a, b, a); }
 DVR_INLINE inti imax(inti a, inti b) { return select(a < b, b, a); }
+#endif
 
 #ifdef DVR_SCALAR
 DVR_INLINE inti to_int(real a) { return {int32_t(a.v)}; }  // towards zero; |a| < 2^31

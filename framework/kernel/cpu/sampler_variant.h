@@ -2,6 +2,8 @@
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
 #define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};
+// The order of the texts matters.
+// clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/math.kernel"
 #include "framework/kernel/medium.kernel"
@@ -9,6 +11,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/steps.kernel"
 #include "framework/kernel/volume.kernel"
 #include DVR_KERNEL_FILE
+  // clang-format on
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_neighbours)
   UNIFORM_I(frame_gradient)

@@ -3,11 +3,14 @@ template <class Voxel>
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
 #define VOXELS(name) dvr::voxels<Voxel> name = {this->template buffer<Voxel>(#name, element_of<Voxel>)};
+// The order of the texts matters.
+// clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/math.kernel"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/volume.kernel"
 #include DVR_KERNEL_FILE
+// clang-format on
 #undef VOXELS
 
   // Lanes beyond x1 repeat the last voxel.

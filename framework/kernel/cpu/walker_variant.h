@@ -2,11 +2,14 @@
 // walk_state, walk_start, walk_next and walk_gradient stands in framework/kernel/walk.glsl.
 struct Walker : kernel_base {
   using kernel_base::kernel_base;
+// The order of the texts matters.
+// clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/math.kernel"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
 #include DVR_KERNEL_FILE
+  // clang-format on
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)
 
