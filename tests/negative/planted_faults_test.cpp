@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
     Faults, PlantedFault,
     testing::Values(Fault{"wrong_step", "steps.kernel", "real s = rmax(to_real(i) * R(frame_step) - offset, R(0.0));",
                           "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
-                    Fault{"last_segment_with_full_length", "steps.kernel",
-                          "  return length;", "  return R(frame_step);"},
+                    Fault{"last_segment_with_full_length", "steps.kernel", "  return length;",
+                          "  return R(frame_step);"},
                     Fault{"filter_weights_of_8_bits", "volume.kernel",
                           "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
                           "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z "

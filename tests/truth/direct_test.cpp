@@ -70,7 +70,7 @@ class Truth : public testing::TestWithParam<Target> {
     GTEST_SKIP() << "not supported: " << reason.what(); \
   }
 
-// math.md B.1 for a homogeneous medium is exact: c (1 - e^(-tau l)), e^(-tau l). Any number of segments.
+// docs/math B.1 for a homogeneous medium is exact: c (1 - e^(-tau l)), e^(-tau l). Any number of segments.
 TEST_P(Truth, HomogeneousMediumInClosedForm) {
   const double length = 0.7, tau = 4.0;
   RayIntegral truth;
@@ -161,7 +161,7 @@ TEST_P(Truth, GoldenLevoySphereConverges) {
   EXPECT_LE(e[3], 5e-6);
 }
 
-// math.md G: `direct` is of order 2 on the ramp medium. The reference is our own fp64 integration.
+// docs/math B.1: `direct` is of order 2 on the ramp medium. The reference is our own fp64 integration.
 TEST_P(Truth, DirectIsOfSecondOrder) {
   const json tau = {{0, 0.5}, {1, 5.5}}, color = {{0, 0.1, 0.9, 0.5}, {1, 0.9, 0.2, 0.4}};
   const double v0 = 0.0037, v1 = 0.9963;
@@ -182,7 +182,7 @@ TEST_P(Truth, DirectIsOfSecondOrder) {
 }
 
 // Light factors prescribed at both ends: k linear along a homogeneous ray has a closed form,
-// C = c [k0 (phi1 - psi) + k1 psi] tau l + b likewise, the whole ray taken as one segment (math.md B.0).
+// C = c [k0 (phi1 - psi) + k1 psi] tau l + b likewise, the whole ray taken as one segment (docs/math B.0).
 TEST_P(Truth, PrescribedLightConverges) {
   const double length = 1.0, tau = 1.5, Q = tau * length;
   const double phi = (1 - std::exp(-Q)) / Q, psi = (1 - (1 + Q) * std::exp(-Q)) / (Q * Q);
