@@ -7,7 +7,7 @@ namespace dvrlab::cpu {
 std::vector<ProbeSegment> probe_ray(const FrameJob& job, const std::string& isa, const std::string& march_folder,
                                     ModuleCache& modules, int x, int y) {
   const FrameModules m(job, isa, march_folder, modules);
-  const FlushDenormals flush;
+  const KeepDenormals keep;
   const WalkMemory walk(m);
   dvr_packet packet{};
   packet.walk = walk.get();

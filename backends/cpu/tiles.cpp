@@ -16,8 +16,8 @@
 
 namespace dvrlab::cpu {
 
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
-FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+KeepDenormals::KeepDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ & ~0x8040u); }
+KeepDenormals::~KeepDenormals() { _mm_setcsr(saved_); }
 
 namespace {
 
@@ -82,7 +82,7 @@ void render_packet(const FrameModules& m, int x, int y, dvr_packet& packet, dvr_
 
 void render_tile(const FrameModules& m, const Rect& r, const FrameJob& job, FrameResult& result,
                  FrameCounters& counters) {
-  const FlushDenormals flush;
+  const KeepDenormals keep;
   const WalkMemory walk(m);
   dvr_packet packet{};
   packet.walk = walk.get();

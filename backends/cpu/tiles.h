@@ -38,13 +38,14 @@ class WalkMemory {
   void* memory_;
 };
 
-/// The same treatment of denormal numbers on every thread (flush both), whatever the caller had.
-class FlushDenormals {
+/// Denormal numbers are kept on every thread (neither FTZ nor DAZ), whatever the caller had: that is what lavapipe and
+/// llvmpipe do in compute shaders, and what the Vulkan backend asks real GPUs for.
+class KeepDenormals {
  public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
+  KeepDenormals();
+  ~KeepDenormals();
+  KeepDenormals(const KeepDenormals&) = delete;
+  KeepDenormals& operator=(const KeepDenormals&) = delete;
 
  private:
   unsigned saved_;

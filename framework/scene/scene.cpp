@@ -12,6 +12,7 @@
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
 #include "framework/scene/medium_table.h"
+#include "framework/scene/vector.h"
 
 namespace dvrlab {
 
@@ -81,6 +82,27 @@ void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
        Uniform::vector("frame_background", decode(background[0]), decode(background[1]), decode(background[2]))});
 }
 
+// Whole numbers of segments stay exact in fp32 far beyond this; software GPUs cut a loop after 65535 rounds.
+constexpr double most_segments = 65535;
+
+// A ray passes at most the diagonal of the domain, and what the camera allows.
+void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame) {
+  const auto number = [&](const char* name) {
+    for (const Uniform& u : frame.uniforms)
+      if (u.name == name) return double(u.f[0]);
+    return 0.0;
+  };
+  const double diagonal = length(field.to_world.vector(minus(field.hi, field.lo)));
+  const double segments = std::min(diagonal, number("frame_t1") - number("frame_t0")) / step;
+  if (segments <= most_segments) return;
+  char text[200];
+  std::snprintf(text, sizeof(text),
+                "sampling.step: %.6g world units make up to %.3g segments on a ray; at most %g are marched, "
+                "so use a step of at least %.6g world units",
+                step, segments, most_segments, step * segments / most_segments);
+  throw InputError(text);
+}
+
 // Skipping only concerns grids; without it the kernel's binding holds one macrocell that is never empty.
 void add_skipping(bool wanted, const Field& field, const Medium& medium, const MediumTableOptions& options,
                   KernelUnit& unit) {
@@ -120,6 +142,9 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
                     registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type").declaration());
   if (c.lights.size() > 4)
     throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
+  if (c.illumination.size() > 1)
+    throw InputError("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
+                     "); give one");
   for (const Section& s : c.illumination) registry.get<IlluminationPlugin>("illumination", s.type, "illumination.type");
 }
 
@@ -156,6 +181,8 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const LocalShading shading = local_shading(c, registry, *field, c.image.text("space") == "linear");
   const bool surfaces = terms.has(Term::tau_s) || terms.has(Term::S_s) || terms.has(Term::W_s) || terms.dirac();
   const bool shaded = terms.has(Term::S_l) || terms.has(Term::W_l);
+  if (shaded && shading.mode == LocalShading::Mode::none)
+    scene.notes.emplace_back("optical_model: shaded, but there is no illumination pass: rendered unlit (k = 1, b = 0)");
   job.rgb = terms.rgb();
   job.full = surfaces || shading.mode == LocalShading::Mode::prescribed ||
              (shaded && shading.mode != LocalShading::Mode::none);
@@ -166,6 +193,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
 
   job.frame.plugin = "frame";
   add_camera(c.camera, *field, job.width, job.height, job.frame);
+  refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, scene.step, job.frame);
   add_skipping(sampling.boolean("skipping"), *field, scene.medium, options, job.frame);

@@ -41,7 +41,7 @@ const std::vector<Isa>& isas() {
   return all;
 }
 
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
-FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+KeepDenormals::KeepDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ & ~0x8040u); }
+KeepDenormals::~KeepDenormals() { _mm_setcsr(saved_); }
 
 }  // namespace dvrlab::kernel_test

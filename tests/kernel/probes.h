@@ -16,13 +16,13 @@ struct Isa {
 /// Scalar first, then every instruction set of this processor. Says aloud which sets it lacks.
 const std::vector<Isa>& isas();
 
-/// Denormal numbers count as zero, as on every thread of the cpu backend.
-class FlushDenormals {
+/// Denormal numbers are kept, as on every thread of the cpu backend.
+class KeepDenormals {
  public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
+  KeepDenormals();
+  ~KeepDenormals();
+  KeepDenormals(const KeepDenormals&) = delete;
+  KeepDenormals& operator=(const KeepDenormals&) = delete;
 
  private:
   unsigned saved_;

@@ -44,7 +44,7 @@ Volume run_cpu(const FrameJob& job, const Stage& stage, const std::string& isa) 
   const auto [nx, ny, nz] = stage.size;
   Volume out(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
   const unsigned saved = _mm_getcsr();
-  _mm_setcsr(saved | 0x8040u);
+  _mm_setcsr(saved & ~0x8040u);
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)
       frame.calls().stage.fill_row(frame.state(), 0, nx, y, z, out.data() + (std::size_t(z) * ny + y) * nx);

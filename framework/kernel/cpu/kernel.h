@@ -22,6 +22,14 @@ DVR_INLINE vec3r select(mask m, vec3r a, vec3r b) {
 }
 DVR_INLINE vec3r xyz(vec4r a) { return {a.x, a.y, a.z}; }
 
+/// Three rows of a packet.
+DVR_INLINE vec3r load3(const float (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
+DVR_INLINE void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
+  store(p[0], a.x);
+  store(p[1], a.y);
+  store(p[2], a.z);
+}
+
 struct uvec4 {
   float x, y, z, w;
 };

@@ -10,12 +10,6 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/composite.kernel"
   // clang-format on
 
-  KFN static void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
-    store(p[0], a.x);
-    store(p[1], a.y);
-    store(p[2], a.z);
-  }
-  KFN static vec3r load3(const float (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
   KFN static spectral load_trans(const float* a, const float* b, const float* c) {
 #if DVR_RGB
     return {load(a), load(b), load(c)};

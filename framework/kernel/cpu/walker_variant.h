@@ -13,13 +13,6 @@ struct Walker : kernel_base {
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)
 
-  KFN static vec3r load3(const float (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
-  KFN static void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
-    store(p[0], a.x);
-    store(p[1], a.y);
-    store(p[2], a.z);
-  }
-
   KFN void start(dvr_packet* p) {
     ray r;
     r.grid_o = load3(p->grid_o);

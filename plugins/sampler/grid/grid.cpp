@@ -33,11 +33,14 @@ class Grid : public SamplerPlugin {
     const auto& n = grid->dims;
     unit.uniforms = {Uniform::integer("grid_nx", n[0]), Uniform::integer("grid_ny", n[1]),
                      Uniform::integer("grid_nz", n[2])};
-    // The gradient in world space is the inverse transposed of the linear part times the gradient in index space.
+    // The gradient in world space is the inverse transposed of the linear part times the gradient in index space. With
+    // a negative slope the physical value falls where the stored one grows: normals follow the physical value.
     const Affine inverse = grid->to_world.inverse();
+    const double sign = grid->slope < 0 ? -1.0 : 1.0;
     const char* names[3] = {"grid_gradient_x", "grid_gradient_y", "grid_gradient_z"};
     for (std::size_t r = 0; r < 3; ++r)
-      unit.uniforms.push_back(Uniform::vector(names[r], inverse.m[r], inverse.m[3 + r], inverse.m[6 + r]));
+      unit.uniforms.push_back(
+          Uniform::vector(names[r], sign * inverse.m[r], sign * inverse.m[3 + r], sign * inverse.m[6 + r]));
     unit.buffers = {Buffer{"grid_voxels", element_of(grid->type), grid->voxels, grid->count()}};
     return unit;
   }
