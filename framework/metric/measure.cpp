@@ -53,8 +53,25 @@ Measurer::Measurer(const Experiment& experiment, const Registry& registry)
   }
 }
 
+namespace {
+// An image that holds a NaN or an infinity is no result, whatever it equals.
+void judge_finite(const FrameImage& image, CaseRecord& record) {
+  std::size_t bad = 0, first = 0;
+  for (std::size_t k = 0; k < image.color.size(); ++k) {
+    if (std::isfinite(image.color[k]) && std::isfinite(image.trans[k])) continue;
+    if (bad++ == 0) first = k / 3;
+  }
+  if (bad == 0) return;
+  const std::size_t width = std::size_t(image.width);
+  record.judge(Verdict::fail, std::to_string(bad) + " values of the image are not finite, first at pixel " +
+                                  std::to_string(first % width) + "," + std::to_string(first / width) +
+                                  "; the data's values or gradients exceed what fp32 can square");
+}
+}  // namespace
+
 void Measurer::measure_case(std::size_t index, FrameImage image, CaseRecord& record) {
   const PlannedCase& c = experiment_.cases[index];
+  judge_finite(image, record);
   const auto add = [&](const FrameImage& reference, const std::string& against) {
     for (Measure& m : measure(c.resolved, registry_, image, reference, against))
       record.measures.push_back(std::move(m));

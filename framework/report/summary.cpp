@@ -47,7 +47,12 @@ Worst worst_variant(const RunSummary& s) {
 int exit_code(const RunSummary& s) {
   if (count(s, Verdict::fail) > 0) return 1;
   const bool some_ran = std::any_of(s.records.begin(), s.records.end(), [](const CaseRecord& r) { return r.ran; });
-  return count(s, Verdict::error) > 0 || s.stopped || !some_ran ? 3 : 0;
+  // An expectation of a case that ran, but that nothing was measured for, has not been met.
+  const bool unjudged = std::any_of(s.records.begin(), s.records.end(), [](const CaseRecord& r) {
+    return r.ran && std::any_of(r.expectations.begin(), r.expectations.end(),
+                                [](const ExpectationResult& e) { return e.verdict == Verdict::not_supported; });
+  });
+  return count(s, Verdict::error) > 0 || s.stopped || !some_ran || unjudged ? 3 : 0;
 }
 
 std::string summary_text(const RunSummary& s) {

@@ -31,9 +31,9 @@ class Run : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  RunSummary run(const std::string& config) {
+  RunSummary run(const std::string& config, const std::vector<std::string>& set = {}) {
     std::ofstream(folder_ + "/small.json") << config;
-    return run_experiment({folder_ + "/small.json", {}, {}, folder_ + "/out"});
+    return run_experiment({folder_ + "/small.json", set, {}, folder_ + "/out"});
   }
   /// Exit code of the program; its output goes to `printed_`.
   int command(const std::string& arguments) {
@@ -85,6 +85,20 @@ TEST_F(Run, ExpectationsDecideTheExitCode) {
   EXPECT_EQ(exit_code(run(small_config(with + R"("order": {"by": "sampling.step", "is": "decreasing"}}])"))), 1);
 }
 
+TEST_F(Run, ExpectationWithoutAMeasuredValueIsNoSuccess) {
+  const RunSummary s = run(small_config(R"(, "metrics": ["rmse"], "reference": {"fine": {"sampling.step": 0.5}},
+    "expect": [{"metric": "rmse.typo", "against": "fine", "at_most": 1}])"));
+  EXPECT_EQ(exit_code(s), 3) << summary_text(s);
+}
+
+TEST_F(Run, ImageWithInfinitiesFails) {
+  const RunSummary s = run(small_config(R"(, "illumination": [{"type": "blinn_phong"}])"),
+                           {"data.scale=1e30", "optical_model.shaded=true", "optical_model.extinction=[[0,1]]"});
+  ASSERT_EQ(s.records.size(), 1u);
+  EXPECT_EQ(s.records[0].verdict, Verdict::fail) << summary_text(s);
+  expect_words(s.records[0].reason, {"not finite", "pixel"});
+}
+
 TEST_F(Run, WhatCannotRunIsCountedAndDoesNotLoseTheOthers) {
   const RunSummary s = run(small_config(R"(, "axes": {"permutation": {"limits.memory": [1, null]}})"));
   ASSERT_EQ(s.records.size(), 2u);
@@ -109,7 +123,7 @@ TEST_F(Run, OptionalDataThatIsMissing) {
 TEST_F(Run, InterruptLeavesAValidTree) {
   std::ofstream(folder_ + "/small.json") << small_config(
       R"(, "axes": {"permutation": {"sampling.step": {"lin": [0.001, 0.002, 2000]}}})");
-  const std::string line = "timeout --preserve-status -s INT 2 " + std::string(DVRLAB_PROGRAM) + " run '" + folder_ +
+  const std::string line = "timeout --preserve-status -s INT 6 " + std::string(DVRLAB_PROGRAM) + " run '" + folder_ +
                            "/small.json' --out '" + folder_ + "/out' 2>/dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 3);
   EXPECT_TRUE(fs::exists(folder_ + "/out/small/results.csv"));
