@@ -1,5 +1,6 @@
 #include "backends/cpu/probe.h"
 
+#include "backends/cpu/denormals.h"
 #include "backends/cpu/tiles.h"
 
 namespace dvrlab::cpu {

@@ -6,18 +6,15 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <sys/resource.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <chrono>
 #include <new>
 
+#include "backends/cpu/denormals.h"
 #include "backends/cpu/isa.h"
 
 namespace dvrlab::cpu {
-
-KeepDenormals::KeepDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ & ~0x8040u); }
-KeepDenormals::~KeepDenormals() { _mm_setcsr(saved_); }
 
 namespace {
 

@@ -38,19 +38,6 @@ class WalkMemory {
   void* memory_;
 };
 
-/// Denormal numbers are kept on every thread (neither FTZ nor DAZ), whatever the caller had: that is what lavapipe and
-/// llvmpipe do in compute shaders, and what the Vulkan backend asks real GPUs for.
-class KeepDenormals {
- public:
-  KeepDenormals();
-  ~KeepDenormals();
-  KeepDenormals(const KeepDenormals&) = delete;
-  KeepDenormals& operator=(const KeepDenormals&) = delete;
-
- private:
-  unsigned saved_;
-};
-
 void render_tiles(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules,
                   const TileOptions& options, FrameResult& result);
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "backends/cpu/denormals.h"
 #include "tests/kernel/probes.h"
 
 namespace dvrlab {
@@ -37,7 +38,7 @@ struct Sweep {
   /// x(i) for i in [0, count). Every instruction set must return the bits of the first.
   template <class Input>
   void run(std::uint64_t count, Input x) {
-    const KeepDenormals keep;
+    const cpu::KeepDenormals keep;
     std::vector<float> in(block), out(block), other(block);
     for (std::uint64_t first = 0; first < count; first += block) {
       for (long k = 0; k < block; ++k) in[std::size_t(k)] = x(std::min(first + std::uint64_t(k), count - 1));
@@ -138,7 +139,7 @@ TEST(KernelMath, Floor) {
 }
 
 TEST(KernelMath, Power) {
-  const KeepDenormals keep;
+  const cpu::KeepDenormals keep;
   constexpr long count = 1 << 16;
   std::vector<float> in(count), out(count), other(count);
   for (long k = 0; k < count; ++k) in[std::size_t(k)] = float(k + 1) / count;

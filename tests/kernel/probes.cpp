@@ -1,7 +1,6 @@
 #include "tests/kernel/probes.h"
 
 #include <dlfcn.h>
-#include <xmmintrin.h>
 
 #include <cstdio>
 #include <stdexcept>
@@ -40,8 +39,5 @@ const std::vector<Isa>& isas() {
   static const std::vector<Isa> all = open_all();
   return all;
 }
-
-KeepDenormals::KeepDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ & ~0x8040u); }
-KeepDenormals::~KeepDenormals() { _mm_setcsr(saved_); }
 
 }  // namespace dvrlab::kernel_test

@@ -1,7 +1,6 @@
 // Two voxel kernels in a row, the second reading the first one's volume: per instruction set through the cpu modules,
 // and on the GPUs in place of the march (docs/adr/0001 says what a backend lacks for this).
 #include <stdlib.h>
-#include <xmmintrin.h>
 
 #include <bit>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "backends/cpu/denormals.h"
 #include "backends/cpu/modules.h"
 #include "framework/scene/buffers.h"
 #include "tests/spike/spike.h"
@@ -43,12 +43,10 @@ Volume run_cpu(const FrameJob& job, const Stage& stage, const std::string& isa) 
                                job.rgb ? DVR_FEATURE_RGB : 0);
   const auto [nx, ny, nz] = stage.size;
   Volume out(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
-  const unsigned saved = _mm_getcsr();
-  _mm_setcsr(saved & ~0x8040u);
+  const cpu::KeepDenormals keep;
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)
       frame.calls().stage.fill_row(frame.state(), 0, nx, y, z, out.data() + (std::size_t(z) * ny + y) * nx);
-  _mm_setcsr(saved);
   return out;
 }
 
