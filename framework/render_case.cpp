@@ -1,7 +1,6 @@
 #include "framework/render_case.h"
 
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 
 #include "framework/interfaces/error.h"
@@ -22,12 +21,6 @@ std::uint64_t available_memory() {
     if (name == "MemAvailable:") return kib * 1024;
   }
   throw NotSupported("/proc/meminfo does not say how much memory is available");
-}
-
-std::string mib(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f MiB", bytes / 1048576);
-  return text;
 }
 
 /// What a scene depends on: everything but the backend and what is only said about the case.
@@ -90,8 +83,10 @@ const Scene& CaseRenderer::scene(const ResolvedCase& c, CaseRecord& record) {
     if (optional_data_missing(c, why)) throw NotSupported(why);
     const double start = now();
     const auto& data = registry_.get<DataPlugin>("data", c.data.type);
-    check_memory(c, static_cast<double>(data.bytes_needed(c.data.parameters, load_context(c))), "its data");
+    MemoryBill memory = bill(c);
+    memory.state("data", static_cast<double>(data.bytes_needed(c.data.parameters, load_context(c))));
     std::shared_ptr<const Field> field = fields_.load(c, registry_);
+    state_scene_bytes(c, registry_, *field, memory);
     scene_ = std::make_unique<Scene>(build_scene(c, registry_, std::move(field)));
     scene_key_ = key;
     say(scene_->field->source);
@@ -117,20 +112,17 @@ BackendSession& CaseRenderer::session(const ResolvedCase& c) {
   return *open;
 }
 
-void CaseRenderer::check_memory(const ResolvedCase& c, double needed, const std::string& what) const {
-  const bool given = !c.limits.is_null("memory");
-  const double limit = given ? c.limits.json("memory").get<double>() : 0.75 * static_cast<double>(memory_at_start_);
-  if (needed <= limit) return;
-  throw NotSupported("the case needs " + mib(needed) + " of memory for " + what + "; " +
-                     (given ? "limits.memory allows " : "75 % of what was available is ") + mib(limit) +
-                     " (raise limits.memory, or take smaller data or images)");
+MemoryBill CaseRenderer::bill(const ResolvedCase& c) const {
+  if (!c.limits.is_null("memory")) return {c.limits.json("memory").get<double>(), "limits.memory allows"};
+  return {0.75 * static_cast<double>(memory_at_start_), "75 % of what was available is"};
 }
 
 FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseRecord& record) {
   BackendSession& backend = session(c);
   record.device = backend.device();
-  check_memory(c, bytes_of(scene.job) + static_cast<double>(backend.bytes_needed(scene.job)),
-               "data, tables and backend '" + c.backend.type + "'");
+  MemoryBill memory = bill(c);
+  memory.state("data and tables", bytes_of(scene.job));
+  memory.state("backend '" + c.backend.type + "'", static_cast<double>(backend.bytes_needed(scene.job)));
   FrameResult frame;
   for (long long i = 0; i < c.top.integer("warmup") && !interrupted(); ++i) {
     frame = {};

@@ -10,6 +10,7 @@
 #include "framework/interfaces/backend.h"
 #include "framework/plugin/registry.h"
 #include "framework/report/case_record.h"
+#include "framework/scene/memory_bill.h"
 #include "framework/scene/scene.h"
 
 namespace dvrlab {
@@ -30,8 +31,8 @@ class CaseRenderer {
   BackendSession& session(const ResolvedCase& c);
   /// Logs what was not said before: cases share their notes.
   void say(const std::string& note);
-  /// Throws NotSupported when `needed` bytes are more than the case may use.
-  void check_memory(const ResolvedCase& c, double needed, const std::string& what) const;
+  /// With the limit of the case, nothing stated yet.
+  MemoryBill bill(const ResolvedCase& c) const;
 
   const Registry& registry_;
   std::uint64_t memory_at_start_;  // bytes that were available

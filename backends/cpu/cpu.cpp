@@ -50,6 +50,7 @@ class CpuSession : public BackendSession {
 
 class Cpu : public BackendPlugin {
  public:
+  bool supports_fast() const override { return false; }
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string& folder) const override {
     return std::make_unique<CpuSession>(p, folder);
   }

@@ -81,6 +81,15 @@ std::string ConfigTree::where_key(const std::string& path) const {
   return found == key_places_.end() ? where(path) : text_of(found->second, found->second.path);
 }
 
+std::string ConfigTree::located(const std::string& message) const {
+  const std::size_t end = message.find(": ");
+  const std::string path = message.substr(0, end);
+  if (end == std::string::npos || path.find_first_of(" /\\\"'") != std::string::npos) return message;
+  // A key that was not written has no place of its own: its section's, if that was written.
+  const std::string section = path.substr(0, path.find_first_of(".["));
+  return places_.contains(section) ? where(path) + message.substr(end) : message;
+}
+
 void ConfigTree::erase_places(const std::string& path) {
   auto it = places_.lower_bound(path);
   while (it != places_.end() && it->first.compare(0, path.size(), path) == 0) {

@@ -34,6 +34,9 @@ class ConfigTree {
   /// The same for a mistake in the key itself: an axis key is one key, however many values it has.
   std::string where_key(const std::string& path) const;
 
+  /// A message that begins with a key's path ("camera.up: is ...") with that key's place in front. Others are kept.
+  std::string located(const std::string& message) const;
+
   /// Puts the value at `from_path` of `from` at `path`, with its places. Sections on the way are made. `value` is
   /// usually what stands there; a range makes its own. Throws InputError when the path leads through a value that
   /// is no section.

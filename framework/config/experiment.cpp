@@ -197,7 +197,7 @@ class Planner {
       check_data_file(c);
       check_case(c, registry_);
     } catch (const InputError& e) {
-      problems.add(e.what());
+      problems.add(tree.located(e.what()));
     }
   }
 

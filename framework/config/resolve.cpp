@@ -23,6 +23,19 @@ bool fits(const Declaration& declaration, const Parameter& p, const nlohmann::js
   return true;
 }
 
+/// "" or why the key is not read: the choice that it belongs to is another one.
+std::string unread_with(const Parameter& p, const nlohmann::json& resolved) {
+  if (*p.only_with == '\0') return "";
+  const std::vector<std::string> condition = split_words(p.only_with, '=');
+  const std::vector<std::string> values = split_words(condition.at(1));
+  const auto chosen = resolved.find(condition.at(0));
+  if (chosen == resolved.end() || !chosen->is_string()) return "";  // the choice itself is wrong
+  const std::string found = chosen->get<std::string>();
+  if (std::find(values.begin(), values.end(), found) != values.end()) return "";
+  return "is read only where " + condition[0] + " is " + join_words(values, " or ") + "; here it is " + found +
+         " (remove the key, or change " + condition[0] + ")";
+}
+
 class CaseResolver {
  public:
   CaseResolver(const ConfigTree& tree, const Registry& registry, Problems& problems)
@@ -114,8 +127,20 @@ class CaseResolver {
     Declaration declaration = common ? framework_declaration(kind, "") : Declaration{};
     declaration.keys.insert(declaration.keys.end(), s.plugin->parameters,
                             s.plugin->parameters + s.plugin->parameter_count);
+    const std::size_t before = problems_.lines().size();
     finish(path, std::move(declaration), s, out);
+    if (problems_.lines().size() == before) check(kind, s);
     return s;
+  }
+
+  /// What the plugin itself has to say of its values.
+  void check(const std::string& kind, const Section& s) {
+    try {
+      registry_.get<Plugin>(kind, s.type).check(s.parameters);
+    } catch (const InputError& e) {
+      problems_.add(tree_.located(e.what()));
+    } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of its cases, not a wrong config
+    }
   }
 
   Section framework_section(const std::string& path, const std::string& section, const char* default_type,
@@ -197,7 +222,14 @@ ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const
       problems.add(tree.where(here) + ": " + wrong);
     }
   }
-  return ParameterSet(path, declaration.keys, resolved);
+  ParameterSet set(path, declaration.keys, resolved);
+  for (const Parameter& p : declaration.keys) {
+    const std::string unread = unread_with(p, resolved);
+    if (unread.empty()) continue;
+    if (section.contains(p.name)) problems.add(tree.where(child_path(path, p.name)) + ": " + unread);
+    resolved.erase(p.name);  // what decides nothing is not part of the case
+  }
+  return set;
 }
 
 ResolvedCase resolve_case(const ConfigTree& tree, const std::string& base_folder, const Registry& registry,

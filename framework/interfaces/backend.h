@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/interfaces/kernel_unit.h"
@@ -82,8 +83,28 @@ class BackendSession {
   virtual std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y);
 };
 
+/// One device that a backend can run on, for `dvrlab doctor`.
+struct DeviceReport {
+  std::string name, driver, api;
+  bool software = false;  // a CPU that plays a GPU
+  std::vector<std::pair<std::string, std::string>>
+      property;  // limits that matter, in words: {"storage buffer", "128 MiB"}
+};
+
+/// What `dvrlab doctor` says of a backend.
+struct BackendReport {
+  std::vector<DeviceReport> device;
+  std::string problem;  // why no device can be used, one sentence; "" when one can
+  std::string package;  // the Debian package that has what is missing; "" when that is not what is wrong
+};
+
 class BackendPlugin : public Plugin {
  public:
+  /// Devices, drivers and limits. Never throws for a missing library, driver or device: that is `problem`. A backend
+  /// that reports nothing is tried by `open`.
+  virtual BackendReport report() const { return {}; }
+  /// True if frames may ask for `precision: "fast"`.
+  virtual bool supports_fast() const { return true; }
   /// Throws NotSupported with the reason (no device, no driver, instruction set missing).
   virtual std::unique_ptr<BackendSession> open(const ParameterSet& parameters,
                                                const std::string& plugin_folder) const = 0;

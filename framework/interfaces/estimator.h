@@ -3,6 +3,8 @@
 // in <name>.kernel; the host side declares it and builds its tables.
 #pragma once
 
+#include <cstdint>
+
 #include "framework/interfaces/kernel_unit.h"
 #include "framework/interfaces/medium.h"
 #include "framework/interfaces/plugin.h"
@@ -32,6 +34,8 @@ struct EstimatorContext {
 class EstimatorPlugin : public Plugin {
  public:
   virtual EstimatorDeclaration declaration() const = 0;
+  /// Bytes that prepare() will allocate at the most: its tables, and what it needs to build them.
+  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/) const { return 0; }
   /// Tables and derived uniforms. The numeric parameters are added by the framework.
   virtual void prepare(const ParameterSet& /*parameters*/, const EstimatorContext& /*context*/,
                        KernelUnit& /*unit*/) const {}

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +31,9 @@ struct Field {
   std::string sampler;  // name of the sampler plugin that reads it
   Affine to_world;      // sampler coordinates -> world
   Vector3 lo{0, 0, 0}, hi{1, 1, 1};
-  double voxel = 1.0;  // smallest spacing in world units: the length unit "voxel"
+  double voxel = 1.0;       // smallest spacing in world units: the length unit "voxel"
+  bool anatomical = false;  // world axes are a patient's: x to the right, y to the front, z up (RAS)
+  std::string length_unit;  // of the world, where the file says it: "mm"; "" when unknown
   double slope = 1.0, intercept = 0.0;
   double stored_min = 0.0, stored_max = 1.0;  // of the stored values
   std::string source;                         // file, or what it is, for the result file
@@ -72,6 +76,11 @@ struct LoadContext {
 /// A data plugin: parameters in, field out.
 class DataPlugin : public Plugin {
  public:
+  /// True if this plugin is the one to read `path`, a file or a folder, with `{"type": <name>, "file": path}` and
+  /// nothing else. `start`: up to 512 first bytes of the file, empty for a folder. Judges by name and magic word,
+  /// never throws: a damaged file is recognised here and refused by load(). Formats without a magic word or an
+  /// extension of their own (raw) are never recognised.
+  virtual bool recognises(const std::string& /*path*/, std::span<const std::byte> /*start*/) const { return false; }
   /// Throws InputError for a bad file, NotSupported for data that this build cannot read.
   virtual std::shared_ptr<const Field> load(const ParameterSet& parameters, const LoadContext& context) const = 0;
   /// Bytes that load() will allocate at the most; read from the header only.
@@ -81,6 +90,8 @@ class DataPlugin : public Plugin {
 /// A sampler: binds a field to its kernel.
 class SamplerPlugin : public Plugin {
  public:
+  /// Bytes that bind() will allocate at the most; what it shares with the field does not count.
+  virtual std::uint64_t bytes_needed(const Field& /*field*/) const { return 0; }
   /// Uniforms and buffers of the kernel for this field. `folder` is the plugin's folder.
   virtual KernelUnit bind(const Field& field) const = 0;
 };

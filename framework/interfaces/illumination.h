@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "framework/interfaces/parameter_set.h"
@@ -33,6 +34,8 @@ struct LocalShading {
 
 class IlluminationPlugin : public Plugin {
  public:
+  /// Bytes that the pass will allocate at the most. Passes of local shading hold nothing.
+  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/) const { return 0; }
   /// Fills `shading`, which holds the lights already.
   virtual void shade(const ParameterSet& parameters, LocalShading& shading) const = 0;
 };

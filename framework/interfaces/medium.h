@@ -64,13 +64,14 @@ struct ModelContext {
   double length_unit;               // world units per unit of the config's lengths
   bool opacity_interpolation;       // `interpolation`: false = "extinction", true = "opacity"
   bool linear_color;                // image.space "linear": transfer function colours are decoded from sRGB
-  double value_min, value_max;      // the data's physical range
+  double value_min, value_max;      // the data's range, in the unit of the transfer functions (`tf_domain`)
   std::vector<std::string>* notes;  // what was capped or refined, said aloud
 };
 
 /// An optical model: transfer functions in, medium out. Host code only.
 class OpticalModelPlugin : public Plugin {
  public:
+  /// A function of the transfer functions' value; the framework converts it to stored values.
   virtual Medium medium(const ParameterSet& parameters, const ModelContext& context) const = 0;
 };
 

@@ -13,6 +13,9 @@ namespace dvrlab {
 
 class MetricPlugin : public Plugin {
  public:
+  enum class Better { higher, lower };
+  /// Which of two values of this metric is the better one: "worst over views" needs to know.
+  virtual Better better() const = 0;
   /// Named values, the headline first: {"psnr", 41.2}, {"psnr.r", ...}. Units are the plugin's documentation.
   virtual std::vector<std::pair<std::string, double>> compare(const ParameterSet& parameters, const FrameImage& image,
                                                               const FrameImage& reference) const = 0;

@@ -32,6 +32,10 @@ struct Parameter {
   Affects affects;
   const char* live_in = "";     // JSON merge patch on the plugin's example config in which `live_value` must act
   const char* live_value = "";  // JSON text of a second legal value for the liveness test
+  // "field=ramp|radial": the key is read only when the choice `field` of the same section is one of these; written
+  // with another it is refused, and resolved configs leave it out. "": always read.
+  const char* only_with = "";
+  const char* schema = "";  // json: JSON Schema of the structure, one object; "": anything
 };
 
 }  // namespace dvrlab

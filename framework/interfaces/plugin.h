@@ -6,10 +6,16 @@
 
 namespace dvrlab {
 
+class ParameterSet;
+
 /// Base of every plugin object. Objects hold no configuration: their methods receive the resolved parameters.
 class Plugin {
  public:
   virtual ~Plugin() = default;
+  /// What the declarations cannot say: bounds in order, keys that exclude each other. Called for every case when a
+  /// config is validated, before anything is read or allocated. Throws InputError that begins with the key's place
+  /// (`parameters.path_of("bounds") + ": ..."`).
+  virtual void check(const ParameterSet& /*parameters*/) const {}
 };
 
 /// Plain data, first member first: a library of another ABI is recognised before anything else is read.

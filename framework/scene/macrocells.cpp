@@ -40,6 +40,12 @@ void scan(const GridField& grid, Macrocells& m) {
 }
 }  // namespace
 
+std::uint64_t skipping_bytes(const std::array<int, 3>& dims) {
+  std::uint64_t count = 1;
+  for (const int n : dims) count *= std::uint64_t((n - 1 + side - 1) / side);
+  return count * (2 * sizeof(float) + sizeof(std::uint8_t));
+}
+
 std::shared_ptr<const Macrocells> macrocells_of(const GridField& grid) {
   if (grid.macrocells) return std::static_pointer_cast<const Macrocells>(grid.macrocells);
   auto m = std::make_shared<Macrocells>();

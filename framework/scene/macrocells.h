@@ -21,6 +21,9 @@ struct Macrocells {
 /// Independent of the transfer function: made once per field and kept by it.
 std::shared_ptr<const Macrocells> macrocells_of(const GridField& grid);
 
+/// Bytes that macrocells_of and empty_distance allocate for a grid.
+std::uint64_t skipping_bytes(const std::array<int, 3>& dims);
+
 /// Chebyshev distance in macrocells to the nearest one that is not empty: 0 there, at most 255.
 std::vector<std::uint8_t> empty_distance(const Macrocells& cells, const OccupiedBins& bins);
 

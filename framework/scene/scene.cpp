@@ -142,10 +142,38 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
                     registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type").declaration());
   if (c.lights.size() > 4)
     throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
+  if (c.top.text("precision") == "fast" &&
+      !registry.get<BackendPlugin>("backend", c.backend.type, "backend.type").supports_fast())
+    throw InputError("precision: backend \"" + c.backend.type + "\" has no \"fast\" arithmetic; use \"strict\"");
   if (c.illumination.size() > 1)
     throw InputError("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
                      "); give one");
   for (const Section& s : c.illumination) registry.get<IlluminationPlugin>("illumination", s.type, "illumination.type");
+  // Cameras, planes and lights that point nowhere do so in every box.
+  FormulaField box;
+  box.lo = {-1, -1, -1};
+  KernelUnit unused;
+  add_camera(c.camera, box, 2, 2, unused);
+  add_clipping(c.clip, box, unused);
+  local_shading(c, registry, box, false);
+}
+
+void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory) {
+  const auto* grid = dynamic_cast<const GridField*>(&field);
+  if (grid != nullptr) memory.state("data", static_cast<double>(grid->bytes()));
+  if (grid != nullptr && c.sampling.parameters.boolean("skipping"))
+    memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
+  memory.state("transfer function table",
+               static_cast<double>(c.optical_model.parameters.integer("tf_entries")) * medium_columns * sizeof(float));
+  memory.state("sampler '" + field.sampler + "'",
+               static_cast<double>(registry.get<SamplerPlugin>("sampler", field.sampler).bytes_needed(field)));
+  memory.state("estimator '" + c.estimator.type + "'",
+               static_cast<double>(
+                   registry.get<EstimatorPlugin>("estimator", c.estimator.type).bytes_needed(c.estimator.parameters)));
+  for (const Section& s : c.illumination)
+    memory.state(
+        "illumination '" + s.type + "'",
+        static_cast<double>(registry.get<IlluminationPlugin>("illumination", s.type).bytes_needed(s.parameters)));
 }
 
 Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_ptr<const Field> field) {

@@ -10,6 +10,7 @@
 #include "framework/interfaces/field.h"
 #include "framework/interfaces/medium.h"
 #include "framework/plugin/registry.h"
+#include "framework/scene/memory_bill.h"
 
 namespace dvrlab {
 
@@ -33,6 +34,9 @@ class FieldCache {
 /// Everything that can be refused without reading the data: an estimator that cannot integrate a term of the
 /// model, more than four lights, ... Throws InputError naming the key.
 void check_case(const ResolvedCase& c, const Registry& registry);
+
+/// States what build_scene will allocate beside the field: the parts of the framework, sampler, estimator and passes.
+void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory);
 
 /// Throws InputError (impossible combination) or NotSupported (memory).
 Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_ptr<const Field> field);

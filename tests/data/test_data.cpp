@@ -34,6 +34,7 @@ std::shared_ptr<const GridField> load_grid(const std::string& name, const nlohma
 
 std::string load_error(const std::string& name, const nlohmann::json& values, const LoadContext& context) {
   try {
+    registry().get<DataPlugin>("data", name).check(parameters("data", name, values));  // as validation does
     load(name, values, context);
   } catch (const InputError& e) {
     return e.what();

@@ -19,7 +19,8 @@ constexpr Parameter parameters[] = {
     {"evaluate", choice, "", R"("grid")", "grid|formula", "On a grid of voxels, or exactly at every sample.",
      Affects::pixels, "{}", R"("formula")"},
     {"bounds", json, "world", "[[-1,-1,-1],[1,1,1]]", "", "Lower and upper corner of the box, [[x,y,z],[x,y,z]].",
-     Affects::pixels, "{}", "[[-1,-1,-1],[1,1,0.5]]"},
+     Affects::pixels, "{}", "[[-1,-1,-1],[1,1,0.5]]", "",
+     R"({"type":"array","minItems":2,"maxItems":2,"items":{"type":"array","minItems":3,"maxItems":3,"items":{"type":"number"}}})"},
     {"size", integer3, "voxels", "[64,64,64]", "[2,16384]",
      "Grid points along each axis; for a formula it only sets the length unit `voxel`.", Affects::pixels, "{}",
      "[33,30,28]"},
@@ -27,34 +28,39 @@ constexpr Parameter parameters[] = {
      Affects::pixels, "{}", R"("uint8")"},
     {"range", json, "value", "null", "",
      "Integer types: values [lo, hi] of the smallest and the largest stored number; null: the range of the formula.",
-     Affects::pixels, R"({"data":{"voxel_type":"uint8"}})", "[0.2,0.6]"},
+     Affects::pixels, R"({"data":{"voxel_type":"uint8"}})", "[0.2,0.6]", "",
+     R"({"type":["array","null"],"minItems":2,"maxItems":2,"items":{"type":"number"}})"},
     {"placement", choice, "", R"("points")", "points|cell_centres",
      "Grid points from bound to bound, or in the middle of the cells that fill the bounds.", Affects::pixels, "{}",
      R"("cell_centres")"},
     {"value", number, "value", "0.5", "", "constant: the value.", Affects::pixels, R"({"data":{"field":"constant"}})",
-     "0.8"},
+     "0.8", "field=constant"},
     {"direction", vector3, "", "[1,0,0]", "", "ramp, sinusoid, polyline: the direction in which the field varies.",
-     Affects::pixels, R"({"data":{"field":"ramp"}})", "[0,1,1]"},
+     Affects::pixels, R"({"data":{"field":"ramp"}})", "[0,1,1]", "field=ramp|sinusoid|polyline"},
     {"offset", number, "value", "0", "", "ramp, radial, sphere, marschner_lobb, polynomial: added to the field.",
-     Affects::pixels, R"({"data":{"field":"ramp"}})", "0.25"},
+     Affects::pixels, R"({"data":{"field":"ramp"}})", "0.25", "field=ramp|radial|sphere|marschner_lobb|polynomial"},
     {"scale", number, "value", "1", "",
      "ramp, radial: change per world unit; sphere, marschner_lobb, polynomial: factor of the field.", Affects::pixels,
-     R"({"data":{"field":"ramp"}})", "0.5"},
+     R"({"data":{"field":"ramp"}})", "0.5", "field=ramp|radial|sphere|marschner_lobb|polynomial"},
     {"center", vector3, "world", "[0,0,0]", "", "radial, sphere: the centre.", Affects::pixels,
-     R"({"data":{"field":"radial"}})", "[0.3,0,0]"},
+     R"({"data":{"field":"radial"}})", "[0.3,0,0]", "field=radial|sphere"},
     {"radius", number, "world", "1", "(0,inf)", "sphere: where the value has fallen to `offset`.", Affects::pixels,
-     R"({"data":{"field":"sphere"}})", "0.6"},
-    {"alpha", number, "", "0.25", "[0,inf)", "marschner_lobb: weight of the rings.", Affects::pixels, "{}", "0.6"},
-    {"f_m", number, "1/world", "6", "[0,inf)", "marschner_lobb: frequency of the rings.", Affects::pixels, "{}", "3"},
-    {"a", number, "value", "0.5", "", "sinusoid: mean.", Affects::pixels, R"({"data":{"field":"sinusoid"}})", "0.4"},
+     R"({"data":{"field":"sphere"}})", "0.6", "field=sphere"},
+    {"alpha", number, "", "0.25", "[0,inf)", "marschner_lobb: weight of the rings.", Affects::pixels, "{}", "0.6",
+     "field=marschner_lobb"},
+    {"f_m", number, "1/world", "6", "[0,inf)", "marschner_lobb: frequency of the rings.", Affects::pixels, "{}", "3",
+     "field=marschner_lobb"},
+    {"a", number, "value", "0.5", "", "sinusoid: mean.", Affects::pixels, R"({"data":{"field":"sinusoid"}})", "0.4",
+     "field=sinusoid"},
     {"b", number, "value", "0.5", "", "sinusoid: amplitude.", Affects::pixels, R"({"data":{"field":"sinusoid"}})",
-     "0.3"},
+     "0.3", "field=sinusoid"},
     {"omega", number, "radian/world", "6.283185307179586", "", "sinusoid: angular frequency.", Affects::pixels,
-     R"({"data":{"field":"sinusoid"}})", "4"},
-    {"phi", number, "radian", "0", "", "sinusoid: phase.", Affects::pixels, R"({"data":{"field":"sinusoid"}})", "1"},
+     R"({"data":{"field":"sinusoid"}})", "4", "field=sinusoid"},
+    {"phi", number, "radian", "0", "", "sinusoid: phase.", Affects::pixels, R"({"data":{"field":"sinusoid"}})", "1",
+     "field=sinusoid"},
     {"node", nodes, "world, value", "[[-1,0],[1,1]]", "1",
      "polyline: [[position, value], ...] along `direction`, ascending; constant outside.", Affects::pixels,
-     R"({"data":{"field":"polyline"}})", "[[-1,0],[0,0.8],[1,0.1]]"},
+     R"({"data":{"field":"polyline"}})", "[[-1,0],[0,0.8],[1,0.1]]", "field=polyline"},
 };
 
 constexpr VoxelType voxel_types[] = {VoxelType::u8, VoxelType::i8, VoxelType::u16, VoxelType::i16, VoxelType::f32};
@@ -69,8 +75,6 @@ std::string describe(const ParameterSet& p) {
 }
 
 std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& box, const ParameterSet& p) {
-  if (f.kind == Kind::march_table)
-    throw InputError(p.path_of("evaluate") + ": march_table is defined on a grid only; set it to \"grid\"");
   auto field = std::make_shared<FormulaField>();
   field->sampler = "formula";
   field->lo = box.lo;
@@ -99,11 +103,19 @@ std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& bo
 
 class Procedural : public DataPlugin {
  public:
+  void check(const ParameterSet& p) const override {
+    const FormulaParams f = make_formula(p);
+    const Box box = read_bounds(p);
+    read_range(p, range(f, box.lo, box.hi));
+    if (f.kind == Kind::march_table && p.text("evaluate") == "formula")
+      throw InputError(p.path_of("evaluate") + ": march_table is defined on a grid only; set it to \"grid\"");
+    grid_bytes(sizes(p), bytes_of(voxel_types[p.choice_index("voxel_type")]), p.path_of("size"));
+  }
+
   std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
     const FormulaParams f = make_formula(p);
     const Box box = read_bounds(p);
     if (p.text("evaluate") == "formula") return formula_field(f, box, p);
-    bytes_needed(p, context);  // refuses sizes that overflow
     const auto grid = std::make_shared<GridField>(
         fill_grid(f, {p.integer3("size"), voxel_types[p.choice_index("voxel_type")], box,
                       p.text("placement") == "cell_centres", read_range(p, range(f, box.lo, box.hi))}));

@@ -27,6 +27,7 @@ Worst worst_of(const std::vector<float>& a, const std::vector<float>& b) {
 
 class MaxAbs : public MetricPlugin {
  public:
+  Better better() const override { return Better::lower; }
   std::vector<std::pair<std::string, double>> compare(const ParameterSet&, const FrameImage& image,
                                                       const FrameImage& reference) const override {
     check_same_size(image, reference);

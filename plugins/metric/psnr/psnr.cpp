@@ -18,6 +18,7 @@ double decibel(double peak, double mean_squared) {
 
 class Psnr : public MetricPlugin {
  public:
+  Better better() const override { return Better::higher; }
   std::vector<std::pair<std::string, double>> compare(const ParameterSet& p, const FrameImage& image,
                                                       const FrameImage& reference) const override {
     const SquaredError e = mean_squared_error(image, reference);

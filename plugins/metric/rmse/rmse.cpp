@@ -9,6 +9,7 @@ namespace {
 
 class Rmse : public MetricPlugin {
  public:
+  Better better() const override { return Better::lower; }
   std::vector<std::pair<std::string, double>> compare(const ParameterSet&, const FrameImage& image,
                                                       const FrameImage& reference) const override {
     const SquaredError e = mean_squared_error(image, reference);
