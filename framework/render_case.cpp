@@ -123,6 +123,7 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   MemoryBill memory = bill(c);
   memory.state("data and tables", bytes_of(scene.job));
   memory.state("backend '" + c.backend.type + "'", static_cast<double>(backend.bytes_needed(scene.job)));
+  record.memory = memory.parts();
   FrameResult frame;
   for (long long i = 0; i < c.top.integer("warmup") && !interrupted(); ++i) {
     frame = {};

@@ -53,6 +53,7 @@ struct CaseRecord {
 
   nlohmann::json scene = nlohmann::json::object();
   DeviceInfo device;
+  std::vector<std::pair<std::string, double>> memory;  // part -> bytes, as stated before they were allocated
   FrameCounters counters;
   std::vector<PhaseStatistics> times;
   std::vector<Measure> measures;
