@@ -1,8 +1,24 @@
 #include "framework/app/single_case.h"
 
+#include "framework/config/views.h"
 #include "framework/interfaces/error.h"
 
 namespace dvrlab {
+
+namespace {
+
+/// What leaves one case of these: a view of the orbit, no axes, or both.
+std::string how_to_have_one(const Experiment& experiment) {
+  bool views = false, axes = false;
+  for (const PlannedCase& c : experiment.cases) {
+    for (const AxisChoice& choice : c.choices) (choice.key == view_key ? views : axes) = true;
+  }
+  if (!views) return "fix the axes: --set 'axes={}'";
+  return std::string("choose a view of the orbit: --set camera.view=0") +
+         (axes ? ", without axes: --set 'axes={}'" : "");
+}
+
+}  // namespace
 
 PlannedCase single_case(const Options& o, const Registry& registry) {
   Experiment experiment = plan_experiment(load_document(o.config, o.set), registry);
@@ -15,7 +31,7 @@ PlannedCase single_case(const Options& o, const Registry& registry) {
   }
   if (count != 1) {
     throw InputError(o.config + ": the config asks for " + std::to_string(count) +
-                     " cases, this verb takes one (use `dvrlab run`, or fix the axes: --set 'axes={}')");
+                     " cases, this verb takes one (use `dvrlab run`, or " + how_to_have_one(experiment) + ")");
   }
   return std::move(*only);
 }

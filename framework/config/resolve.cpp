@@ -136,9 +136,7 @@ class CaseResolver {
   /// What the plugin itself has to say of its values.
   void check(const std::string& kind, const Section& s) {
     try {
-      registry_.get<Plugin>(kind, s.type).check(s.parameters);
-    } catch (const InputError& e) {
-      problems_.add(tree_.located(e.what()));
+      located([&] { registry_.get<Plugin>(kind, s.type).check(s.parameters); });
     } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of its cases, not a wrong config
     }
   }
@@ -152,8 +150,22 @@ class CaseResolver {
       problems_.add(tree_.where(path + ".type") + ": " + unknown_word("type", s.type, types_of(section)));
       return s;
     }
+    const std::size_t before = problems_.lines().size();
     finish(path, framework_declaration(section, s.type), s, out);
+    const auto check_keys = find_section_type(section, s.type)->check;
+    if (check_keys != nullptr && problems_.lines().size() == before) {
+      located([&] { check_keys(s.parameters); });
+    }
     return s;
+  }
+
+  template <class Check>
+  void located(Check check) {
+    try {
+      check();
+    } catch (const InputError& e) {
+      problems_.add(tree_.located(e.what()));
+    }
   }
 
   void finish(const std::string& path, Declaration declaration, Section& s, nlohmann::json& out) {

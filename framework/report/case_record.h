@@ -29,6 +29,7 @@ std::vector<PhaseStatistics> phase_statistics(const std::vector<std::vector<Phas
 struct Measure {
   std::string against, metric;
   std::vector<std::pair<std::string, double>> values;
+  bool higher_is_better = false;
 };
 
 /// The bit-for-bit comparison with the first variant that has an image.
