@@ -122,7 +122,7 @@ const std::vector<BadInput>& bad_inputs() {
       wrong_config("expectation_without_reference",
                    config("  \"metrics\": [\"psnr\"], \"expect\": [{\"metric\": \"psnr\", \"against\": \"truth\", "
                           "\"at_least\": 40}]"),
-                   {"c.json:10:35: expect[0]", "no reference 'truth'", "there are"}),
+                   {"c.json:10:35: expect[0]", "no reference 'truth'", "there is none"}),
       // data files
       wrong_config("file_missing", with_data(R"({"type": "nrrd", "file": "none.nrrd"})"),
                    {"c.json:3:28: data.file", "none.nrrd"}),
