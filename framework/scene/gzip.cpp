@@ -50,8 +50,8 @@ std::unique_ptr<Unpacker> gzip_unpacker(std::span<const std::byte> in, const std
 }
 
 bool gunzip_exactly(std::span<const std::byte> in, std::span<std::byte> out) {
-  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> d(
-      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> d(libdeflate_alloc_decompressor(),
+                                                                                       libdeflate_free_decompressor);
   if (!d) return false;
   const auto whole = is_gzip(in) ? libdeflate_gzip_decompress_ex : libdeflate_zlib_decompress_ex;
   do {

@@ -70,7 +70,8 @@ std::uint64_t set_voxels_bytes(SourceType type, bool swap, std::uint64_t count);
 
 inline constexpr std::size_t voxel_alignment = 64;  // bytes
 
-/// Uninitialised memory for voxels, aligned to it for every instruction set. Throws NotSupported when there is too little.
+/// Uninitialised memory for voxels, aligned to it for every instruction set. Throws NotSupported when there is too
+/// little.
 std::shared_ptr<void> allocate_voxels(std::uint64_t bytes, const std::string& where);
 
 }  // namespace dvrlab

@@ -18,10 +18,9 @@ constexpr const char* what_to_do = "; only one 3-D scalar volume is read: cut ou
 SourceType read_type(const MetaText& text) {
   using enum SourceType;
   static const std::map<std::string, SourceType> types{
-      {"MET_CHAR", i8},       {"MET_ASCII_CHAR", i8},  {"MET_UCHAR", u8}, {"MET_SHORT", i16},
-      {"MET_USHORT", u16},    {"MET_INT", i32},        {"MET_UINT", u32}, {"MET_LONG", i32},
-      {"MET_ULONG", u32},     {"MET_LONG_LONG", i64},  {"MET_FLOAT", f32}, {"MET_DOUBLE", f64},
-      {"MET_ULONG_LONG", u64}};
+      {"MET_CHAR", i8},   {"MET_ASCII_CHAR", i8}, {"MET_UCHAR", u8},      {"MET_SHORT", i16}, {"MET_USHORT", u16},
+      {"MET_INT", i32},   {"MET_UINT", u32},      {"MET_LONG", i32},      {"MET_ULONG", u32}, {"MET_LONG_LONG", i64},
+      {"MET_FLOAT", f32}, {"MET_DOUBLE", f64},    {"MET_ULONG_LONG", u64}};
   const std::string name = text.require("ElementType");
   const auto found = types.find(name);
   if (found == types.end())

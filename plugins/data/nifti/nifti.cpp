@@ -4,8 +4,8 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
-#include "framework/scene/gzip.h"
 #include "framework/scene/grid_file.h"
+#include "framework/scene/gzip.h"
 #include "plugins/data/nifti/nifti_header.h"
 
 namespace dvrlab::nifti {

@@ -102,9 +102,9 @@ std::array<long long, 3> read_dims(const std::array<long long, 8>& dim, const st
 void read_affine(const nifti_image& image, const std::string& name, NiftiHeader& h) {
   const bool sform = image.sform_code > 0, qform = image.qform_code > 0;
   h.notes.push_back(std::string("world frame: RAS, by the file's ") +
-                  (sform   ? "sform"
-                   : qform ? "qform"
-                           : "pixdim alone, since it has neither sform nor qform"));
+                    (sform   ? "sform"
+                     : qform ? "qform"
+                             : "pixdim alone, since it has neither sform nor qform"));
   h.anatomical = sform || qform;
   Affine& a = h.to_world;
   const auto& m = sform ? image.sto_xyz.m : image.qto_xyz.m;  // without a qform the library puts pixdim here

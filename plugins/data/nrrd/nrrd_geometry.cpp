@@ -51,8 +51,7 @@ std::string read_unit(const NrrdText& text, const Axes& axes, bool directions, G
 
 Axes read_axes(const NrrdText& text, GridFile& file) {
   const long long dimension = text.integers("dimension", 1)[0];
-  if (dimension < 3 || dimension > most_axes)
-    text.fail("dimension", "is " + std::to_string(dimension) + what_to_do);
+  if (dimension < 3 || dimension > most_axes) text.fail("dimension", "is " + std::to_string(dimension) + what_to_do);
   Axes axes{static_cast<std::size_t>(dimension), {}};
   const auto sizes = text.integers("sizes", axes.declared);
   std::vector<std::string> kinds = text.words("kinds");

@@ -91,8 +91,9 @@ DataFiles read_data_files(const NrrdText& text, const GridFile& file) {
   };
   const std::size_t fixed = list ? 1 : 4;
   if (words.size() < fixed || words.size() > fixed + 1)
-    text.fail("data file", list ? "must be \"LIST\", or \"LIST axes\", and one file name per line behind it"
-                                : "must be a pattern, the first and last number and the step, as in \"s%03d.raw 1 9 1\"");
+    text.fail("data file",
+              list ? "must be \"LIST\", or \"LIST axes\", and one file name per line behind it"
+                   : "must be a pattern, the first and last number and the step, as in \"s%03d.raw 1 9 1\"");
   DataFiles files{text.listed_files(), words.size() > fixed ? number(fixed) : 2};
   if (files.axes < 1 || files.axes > 3)
     text.fail("data file", "a file spans " + std::to_string(files.axes) + " axes; must be 1, 2 or 3");

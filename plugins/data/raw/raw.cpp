@@ -1,13 +1,12 @@
 // The raw reader: voxels and nothing else in a file, x fastest; the config declares what they are.
 #include <bit>
+#include <nlohmann/json.hpp>
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
 #include "framework/scene/grid_file.h"
 #include "framework/scene/gzip.h"
 #include "plugins/data/raw/size_check.h"
-
-#include <nlohmann/json.hpp>
 
 namespace dvrlab::raw {
 namespace {
@@ -19,8 +18,8 @@ constexpr Affects pixels = Affects::pixels;
 constexpr const char* voxel_types = "int8|uint8|int16|uint16|int32|uint32|int64|uint64|float32|float64";
 
 constexpr Parameter parameters[] = {
-    {"file", text, "", nullptr, "",
-     "The file, relative to the config's folder; ${NAME} reads the environment.", pixels},
+    {"file", text, "", nullptr, "", "The file, relative to the config's folder; ${NAME} reads the environment.",
+     pixels},
     {"size", integer3, "voxels", nullptr, "[2,2147483647]", "Number of voxels along x, y, z; x varies fastest.", pixels,
      "", "[16, 24, 32]"},
     {"voxel_type", choice, "", nullptr, voxel_types, "The number type of a voxel.", pixels, "", "\"int8\""},
@@ -67,9 +66,9 @@ GridFile open(const ParameterSet& p, const LoadContext& context) {
   file.skip = skip_of(p).value_or(0);
   file.parts = {{file.header, bytes}};
   if (const std::string wrong = wrong_size({file.dims, file.type, skip_of(p)}, bytes.size()); !wrong.empty())
-    throw InputError(file.name + ": " +
-                     (is_gzip(bytes) ? "is compressed by gzip: decompress it, or give it a NRRD header; as it is, " : "") +
-                     wrong);
+    throw InputError(
+        file.name + ": " +
+        (is_gzip(bytes) ? "is compressed by gzip: decompress it, or give it a NRRD header; as it is, " : "") + wrong);
   return file;
 }
 

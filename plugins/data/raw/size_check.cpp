@@ -21,8 +21,8 @@ long long cube_side(std::uint64_t voxels) {
 }
 
 std::vector<std::string> fitting(const Declared& d, std::uint64_t there) {
-  static constexpr const char* type_of_bytes[] = {"", "int8 or uint8", "int16 or uint16", "", "int32, uint32 or float32",
-                                                  "", "",              "",                "int64, uint64 or float64"};
+  static constexpr const char* type_of_bytes[] = {
+      "", "int8 or uint8", "int16 or uint16", "", "int32, uint32 or float32", "", "", "", "int64, uint64 or float64"};
   const std::uint64_t element = bytes_of(d.type), needed = grid_bytes(d.dims, element, "size");
   const std::uint64_t count = needed / element, slice = needed / static_cast<std::uint64_t>(d.dims[2]);
   std::vector<std::string> fits;
@@ -49,7 +49,8 @@ std::string wrong_size(const Declared& d, std::uint64_t file_bytes) {
   if (skip > 0) text += ", " + std::to_string(there) + " of them behind the " + std::to_string(skip) + " skipped ones";
   std::string fits;
   for (const std::string& f : fitting(d, there)) fits += (fits.empty() ? "" : ", or ") + f;
-  return text + "; " + (fits.empty() ? "no voxel_type fits this size: check data.size and skip_bytes" : fits + " would fit");
+  return text + "; " +
+         (fits.empty() ? "no voxel_type fits this size: check data.size and skip_bytes" : fits + " would fit");
 }
 
 }  // namespace dvrlab::raw
