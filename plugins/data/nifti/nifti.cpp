@@ -62,6 +62,10 @@ std::shared_ptr<const void> voxel_bytes(const Opened& o) {
 
 class Nifti : public DataPlugin {
  public:
+  bool recognises(const std::string& path, std::span<const std::byte>) const override {
+    return path.ends_with(".nii") || path.ends_with(".nii.gz");
+  }
+
   std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
     const Opened o = open(p, context);
     const auto grid = std::make_shared<GridField>();
@@ -71,6 +75,8 @@ class Nifti : public DataPlugin {
     grid->intercept = o.header.intercept;
     grid->source = o.name;
     grid->notes = o.header.notes;
+    grid->anatomical = true;
+    grid->length_unit = "mm";
     grid->sha256 = sha256({o.file->bytes()});
     set_voxels(*grid, {o.header.type, o.header.swap, voxel_bytes(o)}, o.name);
     finish_grid(*grid, context.nan_policy, context.nan_value);

@@ -1,6 +1,8 @@
 // The NRRD reader: 3-D scalar volumes, attached or detached, raw or gzip, of either byte order.
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
@@ -78,6 +80,12 @@ std::shared_ptr<const void> voxel_bytes(const Opened& o, std::vector<std::string
 
 class Nrrd : public DataPlugin {
  public:
+  bool recognises(const std::string& path, std::span<const std::byte> start) const override {
+    constexpr std::string_view magic = "NRRD000";
+    return path.ends_with(".nrrd") || path.ends_with(".nhdr") ||
+           (start.size() > magic.size() && std::memcmp(start.data(), magic.data(), magic.size()) == 0);
+  }
+
   std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
     const Opened o = open(p, context);
     const auto grid = std::make_shared<GridField>();
@@ -85,6 +93,7 @@ class Nrrd : public DataPlugin {
     grid->to_world = o.header.to_world;
     grid->source = o.name;
     grid->notes = o.header.notes;
+    grid->anatomical = o.header.anatomical;
     grid->sha256 = o.data_file == o.header_file ? sha256({o.header_file->bytes()})
                                                 : sha256({o.header_file->bytes(), o.data_file->bytes()});
     set_voxels(*grid, {o.header.type, o.header.swap, voxel_bytes(o, grid->notes)}, o.name);

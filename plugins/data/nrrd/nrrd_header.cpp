@@ -158,6 +158,9 @@ NrrdHeader read_header(std::span<const std::byte> file, const std::string& name)
   h.gzip = read_gzip(text);
   h.swap = read_swap(text, h.type);
   h.to_world = read_affine(text, h.notes);
+  const std::string space = lower(text.find("space").value_or(""));
+  h.anatomical =
+      space.starts_with("left-") || space.starts_with("right-") || space == "lps" || space == "las" || space == "ras";
   h.header_size = text.end();
   if (text.find("line skip")) h.line_skip = text.integers("line skip", 1)[0];
   if (text.find("byte skip")) h.byte_skip = text.integers("byte skip", 1)[0];

@@ -17,6 +17,7 @@ struct NrrdHeader {
   std::array<long long, 3> dims{};
   bool gzip = false;            // encoding: gzip or raw
   bool swap = false;            // the other byte order
+  bool anatomical = false;      // the file names an anatomical space
   Affine to_world;              // voxel index -> world, RAS where the file names an anatomical space
   std::string data_file;        // detached: name as written; "" when the voxels follow the header
   std::size_t header_size = 0;  // attached: where the voxels start, before the skips
