@@ -74,6 +74,11 @@ class CaseResolver {
     return c;
   }
 
+  Section data() {
+    nlohmann::json resolved;
+    return plugin_section("data", "data", "", true, resolved);
+  }
+
  private:
   static Declaration framework_declaration(const std::string& section, const std::string& type) {
     const SectionType* s = find_section_type(section, type);
@@ -242,6 +247,10 @@ ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const
     resolved.erase(p.name);  // what decides nothing is not part of the case
   }
   return set;
+}
+
+Section resolve_data(const ConfigTree& tree, const Registry& registry, Problems& problems) {
+  return CaseResolver(tree, registry, problems).data();
 }
 
 ResolvedCase resolve_case(const ConfigTree& tree, const std::string& base_folder, const Registry& registry,
