@@ -72,6 +72,16 @@ int run_command_line(int argc, char** argv) {
       ->delimiter(',')
       ->expected(2);
 
+  CLI::App* new_plugin =
+      add("new-plugin", "make a plugin of your own from the template of its kind", dvrlab::new_plugin_verb);
+  new_plugin->add_option("kind", o.name, "data, sampler, optical_model, estimator, illumination, metric or backend")
+      ->required();
+  new_plugin->add_option("name", o.a, "its type in configs: small letters, digits and _")->required();
+  new_plugin->add_option("--out", o.out_folder, "make OUT/<name>, which builds by itself, wherever this is called");
+
+  CLI::App* schema = add("schema", "the JSON Schema of configs, for editors", dvrlab::schema_verb);
+  schema->add_option("-o,--output", o.output, "file; without it the schema goes to stdout");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

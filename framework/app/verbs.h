@@ -14,9 +14,10 @@ struct Options {
   std::string config;
   std::vector<std::string> set;
   std::string out = "out";
-  std::string output;      // render -o
-  std::string name;        // list KIND, describe TYPE
-  std::string a, b;        // compare
+  std::string output;      // render -o, schema -o
+  std::string name;        // list KIND, describe TYPE, new-plugin KIND
+  std::string a, b;        // compare; new-plugin NAME
+  std::string out_folder;  // new-plugin --out
   double tolerance = 0;    // compare
   std::vector<int> pixel;  // probe
 };
@@ -28,5 +29,7 @@ int describe_verb(const Options& options);
 int validate_verb(const Options& options);
 int compare_verb(const Options& options);
 int probe_verb(const Options& options);
+int new_plugin_verb(const Options& options);
+int schema_verb(const Options& options);
 
 }  // namespace dvrlab

@@ -48,6 +48,7 @@ class Loader {
     ConfigTree tree;
     for (const std::string& name : included(written)) include(tree, name, folder, written.where("include"));
     written.root.erase("include");
+    written.root.erase("$schema");  // for editors (docs/editor.md)
     tree.merge(written, "", written.root);
     return tree;
   }
