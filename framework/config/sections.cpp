@@ -157,7 +157,7 @@ std::vector<SectionType> declare() {
         {"origin", vector3, "frame units", nullptr, "", "Where the ray starts.", pixels, "", "[-2,0.3,0.1]"},
         {"direction", vector3, "", nullptr, "", "Where it goes; any length but 0.", pixels, "", "[1,0,0.2]"},
         {"t", json, "frame units", "[0,null]", "[t0, t1] with 0 <= t0 < t1; t1 null: without end",
-         "The part of the ray that is integrated, as arc length from the origin.", pixels, "", "[0,2.9]", "",
+         "The part of the ray that is integrated, as arc length from the origin.", pixels, "", "[0,1.9]", "",
          R"({"type":"array","items":[{"type":"number","minimum":0},{"type":["number","null"]}],"minItems":2,"maxItems":2})"}},
        {{"t", ray_interval}}},
       {"clip",

@@ -104,6 +104,8 @@ std::string broken_word(const SectionType& s, const Parameter& p) {
     }
     config.merge_patch(patch);
   }
+  if (p.default_value != nullptr && !place(config, s.section).contains(p.name))
+    place(config, s.section)[p.name] = json::parse(p.default_value);
   json changed = config;
   place(changed, s.section)[p.name] = json::parse(p.live_value);
   if (config == changed) return "the live_value is the example's own value";
@@ -158,7 +160,7 @@ TEST(SectionLiveness, SeesKeysThatBreakTheirWord) {
             "is declared to affect pixels and changes none");
   EXPECT_EQ(broken_word(sampling, {"step", ParameterType::number, "", "1", "", "", Affects::speed, "", "0.5"}),
             "is declared to affect speed only and changes pixels");
-  EXPECT_EQ(broken_word(sampling, {"step", ParameterType::number, "", "1", "", "", Affects::pixels, "", "0.7"}),
+  EXPECT_EQ(broken_word(sampling, {"step", ParameterType::number, "", "1", "", "", Affects::pixels, "", "1"}),
             "the live_value is the example's own value");
   EXPECT_NE(broken_word(sampling, {"step", ParameterType::number, "", "1", "", "", Affects::pixels, "", "-1"})
                 .find("refused"),

@@ -1,4 +1,5 @@
 // A kernel that cannot be used is the verdict of its own cases, with the kernel's own file and line where it has one.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -34,7 +35,9 @@ class KernelErrors : public testing::Test {
  protected:
   /// The broken plugins with these kernel texts, as a plugin root.
   void SetUp() override {
-    root_ = testing::TempDir() + "/kernel_errors_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(test.begin(), test.end(), '/', '_');
+    root_ = testing::TempDir() + "/kernel_errors_" + test;
     fs::remove_all(root_);
     fs::copy(std::string(DVRLAB_BROKEN_PLUGINS) + "/kernels", root_, fs::copy_options::recursive);
     write("estimator/crooked/crooked.kernel", estimator_text("crookedness"));
@@ -60,7 +63,10 @@ std::string judge(const RunSummary& summary, const std::string& key, const std::
     bool is_broken = false;
     for (const AxisChoice& c : r.plan->choices) is_broken = is_broken || (c.key == key && c.label == broken);
     EXPECT_EQ(r.verdict, is_broken ? Verdict::error : Verdict::pass) << r.plan->id << ": " << r.reason;
-    if (is_broken) expect_words(r.reason, words);
+    if (is_broken) {
+      expect_words(r.reason, words);
+      EXPECT_EQ(r.reason.find('\n'), std::string::npos) << "one line: " << r.reason;
+    }
     ++(is_broken ? errors : sound);
   }
   EXPECT_GT(errors, 0);
@@ -77,14 +83,15 @@ class OnGpu : public KernelErrors, public testing::WithParamInterface<const char
 };
 
 TEST_P(OnGpu, EstimatorThatDoesNotCompile) {
-  const std::string skip = judge(run(axes("estimator", R"([{"type": "crooked"}, {"type": "direct"}])")), "estimator",
-                                 "crooked", {"do not compile", "crooked.kernel:3: error", "crookedness"});
+  const std::string skip =
+      judge(run(axes("estimator", R"([{"type": "crooked"}, {"type": "direct"}])")), "estimator", "crooked",
+            {"do not compile", "estimator/crooked/crooked.kernel:3: error", "crookedness"});
   if (!skip.empty()) GTEST_SKIP() << "not supported: " << skip;
 }
 
 TEST_P(OnGpu, SamplerThatDoesNotCompile) {
   const std::string skip = judge(run(axes("data.sampler", R"(["bent", "grid"])")), "data.sampler", "bent",
-                                 {"do not compile", "bent.kernel:4: error", "bending"});
+                                 {"do not compile", "sampler/bent/bent.kernel:4: error", "bending"});
   if (!skip.empty()) GTEST_SKIP() << "not supported: " << skip;
 }
 

@@ -41,7 +41,7 @@ def main(folder):
             sys.exit(f"new-plugin {kind} left the template's name in {left}")
     lists = "".join(f"add_subdirectory(mine_{kind})\n" for kind in KINDS)
     (source / "CMakeLists.txt").write_text(
-        "cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\nset(CMAKE_BUILD_TYPE Release)\n" + lists)
+        "cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\nset(CMAKE_BUILD_TYPE Release)\nenable_testing()\n" + lists)
     configure(source, target, prefix / "lib/cmake/dvrlab")
     # One test of the seven: they are compiled in the source tree's build as well.
     targets = [f"dvrlab_{kind}_mine_{kind}" for kind in KINDS] + ["dvrlab_metric_mine_metric_test"]

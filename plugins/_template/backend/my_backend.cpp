@@ -65,9 +65,9 @@ class Module {
   std::align_val_t align_{64};
 };
 
-class MySession : public BackendSession {
+class Session : public BackendSession {
  public:
-  MySession(std::string isa, std::string folder) : isa_(std::move(isa)), folder_(std::move(folder)) {}
+  Session(std::string isa, std::string folder) : isa_(std::move(isa)), folder_(std::move(folder)) {}
   DeviceInfo device() const override { return {"one thread", "kernel modules " + isa_, "C++ SIMD", "isa " + isa_}; }
   std::uint64_t bytes_needed(const FrameJob& job) const override {
     return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * sizeof(float);
@@ -133,7 +133,7 @@ class MyBackend : public BackendPlugin {
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string& folder) const override {
     if (p.text("isa") == "sse4.2" && !__builtin_cpu_supports("sse4.2"))
       throw NotSupported("backend my_backend: this processor has no sse4.2; use isa \"scalar\"");
-    return std::make_unique<MySession>(p.text("isa"), folder);
+    return std::make_unique<Session>(p.text("isa"), folder);
   }
 };
 
