@@ -72,6 +72,8 @@ WRONG = {
     "illegal value of an axis": {"axes": {"permutation": {"sampling.step": [1, -2]}}},
     "unknown range": {"axes": {"permutation": {"sampling.step": {"log3": [1, 2]}}}},
     "unknown key of a reference": {"reference": {"fine": {"sampling.stepp": 1}}},
+    "metrics of a reference": {"reference": {"fine": {"metrics": []}}},
+    "a reference's name": {"reference": {"variant": {"sampling.step": 1}}},
     "expectation without bound": {"reference": {"fine": {"sampling.step": 0.5}},
                                   "expect": [{"metric": "psnr", "against": "fine"}]},
     "expectation with two bounds": {"reference": {"fine": {"sampling.step": 0.5}},
