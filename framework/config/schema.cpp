@@ -129,7 +129,7 @@ class SchemaWriter {
                                                               : refer("keys-" + section)));
     s["allOf"] = choices;
     if (section == "metrics")  // "psnr" is short for {"type": "psnr"}
-      s = {{"type", {"string", "object"}}, {"if", {{"type", "string"}}}, {"then", {{"enum", types}}}, {"else", s}};
+      s = {{"anyOf", {Schema{{"enum", types}, {"enumDescriptions", summaries}}, s}}};
     definitions_[prefix + section] = s;
   }
 
