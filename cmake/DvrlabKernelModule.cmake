@@ -1,5 +1,6 @@
 # Kernel modules: one shared library per instruction set from the same text. Each exports one C function and
 # nothing else (version script), so that no inline function of one instruction set can replace another's.
+# DVRLAB_ROOT holds framework/: the source tree, or the installed headers (dvrlabConfig.cmake).
 set(DVRLAB_ISAS scalar sse4.2 avx2 avx512)
 set(DVRLAB_FLAGS_scalar "")
 set(DVRLAB_FLAGS_sse4.2 -msse4.2)
@@ -46,13 +47,15 @@ function(dvrlab_add_kernel_modules kind name kernel out)
   foreach(isa ${DVRLAB_ISAS})
     string(REPLACE "." "_" isa_id ${isa})
     set(target dvrlab_${kind}_${name}_${isa_id}${ARG_SUFFIX})
-    add_library(${target} MODULE ${CMAKE_SOURCE_DIR}/framework/kernel/cpu/${kind}.module.cpp)
-    target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
+    add_library(${target} MODULE ${DVRLAB_ROOT}/framework/kernel/cpu/${kind}.module.cpp)
+    target_include_directories(${target} PRIVATE ${DVRLAB_ROOT})
+    target_compile_features(${target} PRIVATE cxx_std_20)
     target_compile_definitions(${target} PRIVATE DVR_KERNEL_FILE="${kernel}" DVR_KERNEL_NAME="${name}" DVR_ISA_${isa_id}=1 DVR_HAS_VOXELS=${has_voxels} DVR_WALKING=${walking})
     target_compile_options(${target} PRIVATE ${DVRLAB_MODULE_FLAGS} ${DVRLAB_FLAGS_${isa}} ${ARG_FLAGS})
     target_link_libraries(${target} PRIVATE dvrlab_warnings)
-    target_link_options(${target} PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/framework/kernel/cpu/module.map -Wl,-z,defs)
-    set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name}.${isa} LIBRARY_OUTPUT_DIRECTORY ${out})
+    target_link_options(${target} PRIVATE -Wl,--version-script=${DVRLAB_ROOT}/framework/kernel/cpu/module.map -Wl,-z,defs)
+    set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name}.${isa} LIBRARY_OUTPUT_DIRECTORY ${out}
+                          CXX_EXTENSIONS OFF)
     list(APPEND targets ${target})
   endforeach()
   set(DVRLAB_MODULE_TARGETS ${targets} PARENT_SCOPE)

@@ -49,7 +49,7 @@ nlohmann::json scene_section(const Scene& s, double seconds) {
   nlohmann::json section = {
       {"source", f.source},
       {"sha256", f.sha256},
-      {"sampler", f.sampler},
+      {"sampler", s.job.sampler.plugin},
       {"value_range", {f.slope * f.stored_min + f.intercept, f.slope * f.stored_max + f.intercept}},
       {"voxel_world", f.voxel},
       {"step_world", s.step},

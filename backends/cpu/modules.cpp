@@ -3,7 +3,9 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
 
 #include "framework/interfaces/error.h"
 
@@ -13,15 +15,22 @@ const dvr_kernel_module* ModuleCache::get(const std::string& folder, const std::
   const std::string file = folder + "/" + name + "." + isa + ".so";
   for (const auto& [known, module] : modules_)
     if (known == file) return module;
+  std::error_code ec;
+  if (!std::filesystem::exists(file, ec))
+    throw std::runtime_error("backend cpu: the kernel module " + file + " is missing: '" + name +
+                             "' was not built for isa " + isa + " (build the plugin again, or choose another isa)");
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw InputError("backend cpu: kernel module cannot be loaded: " + std::string(dlerror()));
+  if (library == nullptr)
+    throw std::runtime_error("backend cpu: a kernel module is not loadable: " + std::string(dlerror()) +
+                             " (build the plugin again)");
   using Entry = const dvr_kernel_module* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(library, "dvrlab_kernel_module"));
-  if (entry == nullptr) throw InputError("backend cpu: " + file + " exports no dvrlab_kernel_module");
+  if (entry == nullptr)
+    throw std::runtime_error("backend cpu: " + file + " exports no dvrlab_kernel_module (build the plugin again)");
   const dvr_kernel_module* module = entry();
   if (module->abi != DVR_KERNEL_ABI)
-    throw InputError("backend cpu: " + file + " has kernel ABI " + std::to_string(module->abi) + ", this dvrlab has " +
-                     std::to_string(DVR_KERNEL_ABI) + "; build the plugin again");
+    throw std::runtime_error("backend cpu: " + file + " has kernel ABI " + std::to_string(module->abi) +
+                             ", this dvrlab has " + std::to_string(DVR_KERNEL_ABI) + " (build the plugin again)");
   modules_.emplace_back(file, module);
   return module;
 }

@@ -14,7 +14,8 @@ namespace dvrlab::cpu {
 /// Opens each module library once; libraries are never unloaded.
 class ModuleCache {
  public:
-  /// <folder>/<name>.<isa>.so. Throws InputError when it is missing, not loadable or of another kernel ABI.
+  /// <folder>/<name>.<isa>.so. Throws std::runtime_error when it is missing, not loadable or of another kernel ABI:
+  /// the plugin is broken, not the config.
   const dvr_kernel_module* get(const std::string& folder, const std::string& name, const std::string& isa);
 
  private:

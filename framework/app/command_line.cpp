@@ -68,6 +68,13 @@ struct Definition {
     option(add("describe", describe_verb), "type", o.name, "TYPE",
            "direct, estimator.direct, camera.perspective, image")
         ->required();
+    CLI::App& new_plugin = add("new-plugin", new_plugin_verb);
+    option(new_plugin, "kind", o.name, "KIND", "data, sampler, optical_model, estimator, illumination, metric, backend")
+        ->required();
+    option(new_plugin, "name", o.a, "NAME", "its type in configs: small letters, digits and _")->required();
+    option(new_plugin, "--out", o.out_folder, "DIR",
+           "make DIR/<name>, which builds by itself, wherever this is called");
+    option(add("schema", schema_verb), "-o,--output", o.output, "FILE", "file; without it the schema goes to stdout");
     add("doctor", doctor_verb);
     option(add("completion", completion_verb), "shell", o.name, "SHELL", "bash, zsh or fish")
         ->required()

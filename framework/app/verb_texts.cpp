@@ -88,6 +88,24 @@ const std::vector<VerbText>& verb_texts() {
        {{"dvrlab describe absorption_emission", "a plugin"},
         {"dvrlab describe sampling.uniform", "a type of the framework"},
         {"dvrlab describe image --json", "a section without types, for programs"}}},
+      {"new-plugin",
+       parts,
+       "make a plugin of your own from the template of its kind",
+       "Copies the template of a kind and gives it a name: host code, kernel where the kind has one, page, example and "
+       "test, ready to build. Inside dvrlab's source tree it becomes plugins/<kind>/<name>; elsewhere, or with --out, "
+       "a "
+       "folder that builds by itself against the installed dvrlab. Nothing is overwritten.",
+       nullptr,
+       {{"dvrlab new-plugin estimator my_estimator", "an estimator for all backends"},
+        {"dvrlab new-plugin metric my_metric --out my_plugins", "a metric, in my_plugins/my_metric"}}},
+      {"schema",
+       parts,
+       "the JSON Schema of configs, for editors",
+       "Writes one JSON Schema (draft-07) of a whole config, made from the declarations of the framework and of every "
+       "plugin that was found: an editor completes keys with it and shows units, defaults and legal values.",
+       nullptr,
+       {{"dvrlab schema -o dvrlab.schema.json", "to a file, to be named by the editor or by \"$schema\""},
+        {"dvrlab schema", "to stdout"}}},
       {"doctor",
        parts,
        "what this machine offers, what is missing, and the package that has it",

@@ -14,9 +14,10 @@ struct Options {
   std::string config;  // of render and info: or a data file or folder
   std::vector<std::string> set;
   std::string out = "out";
-  std::string output;      // render -o
-  std::string name;        // list KIND, describe TYPE, completion SHELL, help VERB
-  std::string a, b;        // compare
+  std::string output;      // render -o, schema -o
+  std::string name;        // list KIND, describe TYPE, completion SHELL, help VERB, new-plugin KIND
+  std::string a, b;        // compare; new-plugin NAME
+  std::string out_folder;  // new-plugin --out
   double tolerance = 0;    // compare
   std::vector<int> pixel;  // probe
   int repeat = 0;          // run; 0: as the config says
@@ -37,5 +38,7 @@ int doctor_verb(const Options& options);
 int completion_verb(const Options& options);
 int man_verb(const Options& options);
 int help_verb(const Options& options);
+int new_plugin_verb(const Options& options);
+int schema_verb(const Options& options);
 
 }  // namespace dvrlab

@@ -50,6 +50,7 @@ class Loader {
     ConfigTree tree;
     for (const auto& [name, where] : included(written)) include(tree, name, folder, where);
     written.root.erase("include");
+    written.root.erase("$schema");  // for editors (docs/editor.md)
     tree.merge(written, "", written.root);
     return tree;
   }

@@ -23,6 +23,12 @@ LoadContext load_context(const ResolvedCase& c) {
   return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
 }
 
+/// The sampler that reads the field: the config's, else the one that the data names.
+std::string sampler_of(const ResolvedCase& c, const Field& field) {
+  const std::string wanted = c.data.parameters.text("sampler");
+  return wanted.empty() ? field.sampler : wanted;
+}
+
 // The medium in values of tf_domain; `voxel` is the data's smallest spacing in world units.
 Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
                     std::vector<std::string>& notes) {
@@ -150,6 +156,8 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
     throw InputError("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
                      "); give one");
   for (const Section& s : c.illumination) registry.get<IlluminationPlugin>("illumination", s.type, "illumination.type");
+  const std::string sampler = c.data.parameters.text("sampler");
+  if (!sampler.empty()) registry.get<SamplerPlugin>("sampler", sampler, "data.sampler");
   // Cameras, planes and lights that point nowhere do so in every box.
   FormulaField box;
   box.lo = {-1, -1, -1};
@@ -166,8 +174,9 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
     memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
   memory.state("transfer function table",
                static_cast<double>(c.optical_model.parameters.integer("tf_entries")) * medium_columns * sizeof(float));
-  memory.state("sampler '" + field.sampler + "'",
-               static_cast<double>(registry.get<SamplerPlugin>("sampler", field.sampler).bytes_needed(field)));
+  const std::string sampler = sampler_of(c, field);
+  memory.state("sampler '" + sampler + "'",
+               static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler).bytes_needed(field)));
   memory.state("estimator '" + c.estimator.type + "'",
                static_cast<double>(
                    registry.get<EstimatorPlugin>("estimator", c.estimator.type).bytes_needed(c.estimator.parameters)));
@@ -237,12 +246,13 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
        Uniform::constant_integer("frame_neighbours", declared.neighbours && surfaces ? 1 : 0),
        Uniform::constant_integer("frame_gradient", gradient ? 1 : 0)});
 
-  job.sampler = registry.get<SamplerPlugin>("sampler", field->sampler).bind(*field);
-  job.sampler.plugin = field->sampler;
-  job.sampler.folder = registry.find("sampler", field->sampler).folder;
+  const std::string sampler = sampler_of(c, *field);
+  job.sampler = registry.get<SamplerPlugin>("sampler", sampler).bind(*field);
+  job.sampler.plugin = sampler;
+  job.sampler.folder = registry.find("sampler", sampler).folder;
   if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
-                     "\" needs equally spaced samples, but sampler \"" + field->sampler +
+                     "\" needs equally spaced samples, but sampler \"" + sampler +
                      "\" ends its segments at the faces of cells; choose another estimator");
   job.estimator.plugin = c.estimator.type;
   job.estimator.folder = c.estimator.folder;

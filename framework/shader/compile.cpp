@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 
 #include "framework/scene/sha256.h"
@@ -31,8 +32,21 @@ std::string with_file_names(const std::string& log, const std::vector<std::strin
   return text.append(rest, log.end());
 }
 
+/// What the compiler found, on one line: without its closing words and counts.
+std::string findings(const std::string& log) {
+  std::istringstream lines(log);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    const bool closing = line.empty() || line.find("compilation terminated") != std::string::npos ||
+                         line.find(" compilation errors.") != std::string::npos;
+    if (!closing) text += (text.empty() ? "" : "; ") + line;
+  }
+  return text;
+}
+
 [[noreturn]] void fail(const char* log, const ComposedShader& shader) {
-  throw std::runtime_error("the kernels do not compile:\n" + with_file_names(log, shader.sources));
+  throw std::runtime_error("the kernels do not compile: " + findings(with_file_names(log, shader.sources)));
 }
 
 Spirv translate(const ComposedShader& shader) {

@@ -140,10 +140,10 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
         name = "generated declarations", text = generated;
         break;
       case From::sampler:
-        name = job.sampler.plugin + ".kernel", text = read_text(job.sampler.folder + "/" + name);
+        name = job.sampler.folder + "/" + job.sampler.plugin + ".kernel", text = read_text(name);
         break;
       case From::estimator:
-        name = job.estimator.plugin + ".kernel", text = read_text(job.estimator.folder + "/" + name);
+        name = job.estimator.folder + "/" + job.estimator.plugin + ".kernel", text = read_text(name);
         break;
     }
     shader.text += "#line 1 " + std::to_string(shader.sources.size()) + "\n" + text + "\n";

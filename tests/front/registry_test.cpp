@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "framework/interfaces/error.h"
@@ -88,6 +89,71 @@ TEST(Registry, ConstructorThatThrows) {
     FAIL() << "expected NotSupported";
   } catch (const NotSupported& e) {
     expect_words(e.what(), {"grumpy", "not in the mood", "grumpy.so"});
+  }
+}
+
+TEST(Registry, ConstructorThatThrowsNoException) {
+  const Registry registry({broken + "/throws_anything"});
+  try {
+    registry.get<EstimatorPlugin>("estimator", "odd");
+    FAIL() << "expected NotSupported";
+  } catch (const NotSupported& e) {
+    expect_words(e.what(), {"'odd' could not be made", "no std::exception", "odd.so"});
+  }
+}
+
+TEST(Registry, EntryPointThatThrows) {
+  expect_words(why_not({broken + "/entry_throws"}, "moody"),
+               {"broken entry point", "moody.so", "dvrlab_plugin", "threw an exception"});
+}
+
+TEST(Registry, EntryPointThatReturnsNothing) {
+  expect_words(why_not({broken + "/entry_null"}, "mute"), {"broken entry point", "mute.so", "no descriptor"});
+}
+
+TEST(Registry, EveryProblemIsOneLine) {
+  int problems = 0;
+  for (const char* root :
+       {"not_loadable", "no_library", "no_entry", "other_abi", "misplaced", "entry_throws", "entry_null"}) {
+    const Registry registry({broken + "/" + root});
+    for (const PluginEntryInfo& e : registry.entries()) {
+      problems += e.problem.empty() ? 0 : 1;
+      EXPECT_EQ(e.problem.find('\n'), std::string::npos) << e.problem;
+      EXPECT_EQ(e.problem.empty(), e.descriptor != nullptr);
+    }
+  }
+  EXPECT_EQ(problems, 7);
+}
+
+/// Sets DVRLAB_PLUGIN_PATH and puts it back.
+class PluginPath {
+ public:
+  explicit PluginPath(const std::string& value)
+      : before_(std::getenv("DVRLAB_PLUGIN_PATH") ? std::getenv("DVRLAB_PLUGIN_PATH") : "") {
+    setenv("DVRLAB_PLUGIN_PATH", value.c_str(), 1);
+  }
+  ~PluginPath() { before_.empty() ? unsetenv("DVRLAB_PLUGIN_PATH") : setenv("DVRLAB_PLUGIN_PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+TEST(Registry, SearchPathIsOptionThenEnvironmentThenItsOwnTree) {
+  const PluginPath path(":" + broken + "/good:" + broken + "/throws:");
+  const Registry registry({broken + "/kernels"});
+  EXPECT_EQ(registry.roots(), (std::vector<std::string>{broken + "/kernels", broken + "/good", broken + "/throws",
+                                                        Registry::home() + "/plugins"}));
+  EXPECT_NE(registry.find("estimator", "twin").descriptor, nullptr) << "from the environment";
+  EXPECT_NE(registry.find("estimator", "crooked").descriptor, nullptr) << "from the option";
+}
+
+TEST(Registry, MissingFolderInTheEnvironmentIsNamed) {
+  const PluginPath path("/no/such/place");
+  try {
+    const Registry registry;
+    FAIL() << "expected InputError";
+  } catch (const InputError& e) {
+    expect_words(e.what(), {"DVRLAB_PLUGIN_PATH", "/no/such/place"});
   }
 }
 

@@ -1,0 +1,24 @@
+#include <cstdio>
+#include <fstream>
+
+#include "framework/app/verbs.h"
+#include "framework/config/schema.h"
+#include "framework/image/atomic_file.h"
+#include "framework/plugin/registry.h"
+#include "framework/report/pretty_json.h"
+
+namespace dvrlab {
+
+int schema_verb(const Options& o) {
+  const Registry registry(o.plugin_path);
+  const std::string text = pretty_json(config_schema(registry)) + "\n";
+  if (o.output.empty()) {
+    std::fputs(text.c_str(), stdout);
+    return 0;
+  }
+  write_atomically(o.output, [&](const std::string& file) { std::ofstream(file) << text; });
+  std::fprintf(stderr, "config: the JSON Schema of all configs is in %s\n", o.output.c_str());
+  return 0;
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,11 @@
+# Builds the plugin of this folder against an installed dvrlab, or its build tree (dvrlab_DIR names either).
+cmake_minimum_required(VERSION 3.25)
+project(my_plugin LANGUAGES CXX)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+find_package(dvrlab REQUIRED)
+dvrlab_add_plugin(${CMAKE_CURRENT_SOURCE_DIR} KIND my_kind NAME my_plugin)
+enable_testing()
+dvrlab_add_plugin_tests()
+dvrlab_plugin_summary()
