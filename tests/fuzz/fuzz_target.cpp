@@ -29,7 +29,10 @@ struct Folder {
   fs::path path = (fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path()) /
                   ("dvrlab_fuzz_" + std::to_string(::getpid()));
   std::string file = (path / "input").string();
-  Folder() { fs::create_directories(path); }
+  explicit Folder(const std::string& companions) {
+    fs::create_directories(path);
+    if (fs::is_directory(companions)) fs::copy(companions, path);
+  }
   ~Folder() {
     std::error_code ignored;
     fs::remove_all(path, ignored);
@@ -52,8 +55,8 @@ void expect_result_or_error(const std::function<void()>& work) {
   }
 }
 
-const std::string& input_file(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
+const std::string& input_file(const std::uint8_t* data, std::size_t size, const std::string& companions) {
+  static const Folder folder(companions);
   std::ofstream out(folder.file, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   out.close();

@@ -29,7 +29,7 @@ ConfigJson keys_of(const std::uint8_t*& data, std::size_t& size) {
 void read(const DataPlugin& plugin, const PluginDescriptor& descriptor, const std::uint8_t* data, std::size_t size) {
   ConfigTree tree;
   tree.root = keys_of(data, size);
-  tree.root["file"] = fuzz::input_file(data, size);
+  tree.root["file"] = fuzz::input_file(data, size, DVRLAB_FUZZ_COMPANIONS);
   Problems problems;
   nlohmann::json resolved = nlohmann::json::object();
   const ParameterSet parameters =
