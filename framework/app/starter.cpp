@@ -41,8 +41,11 @@ std::string vector(const Vector3& v) {
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
+/// Relative where the file lies near the config, so that both can be moved together.
 std::string path_in(const std::string& folder, const std::string& file) {
-  return std::filesystem::proximate(std::filesystem::absolute(file), folder).string();
+  const std::string absolute = std::filesystem::weakly_canonical(file).string();
+  const std::string relative = std::filesystem::proximate(absolute, folder).string();
+  return relative.starts_with("../../../") ? absolute : relative;
 }
 
 /// What is chosen from the data.
