@@ -1,4 +1,6 @@
 // Help, names that are nearly right, and the examples of the help, all of which must work.
+#include <fstream>
+
 #include "tests/app/program.h"
 
 namespace dvrlab::app_test {
@@ -37,6 +39,19 @@ TEST_F(Help, EveryExampleWorks) {
   }
   EXPECT_GE(count, 25);
   EXPECT_EQ(run("dvrlab render my.json --set camera.position=0 -o image.png").code, 2) << "an example that is wrong";
+}
+
+TEST_F(Help, EveryCommandOfTheTutorialWorks) {
+  std::ifstream page(DVRLAB_SOURCE "/docs/first-experiment.md");
+  const std::string start = "    dvrlab ", fails = "# exit code 1";
+  int count = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with(start)) continue;
+    const Outcome o = run(line);
+    EXPECT_EQ(o.code, line.ends_with(fails) ? 1 : 0) << line << "\n" << o.err;
+    ++count;
+  }
+  EXPECT_GE(count, 10);
 }
 
 TEST_F(Help, WithoutAVerb) {
