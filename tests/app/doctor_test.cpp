@@ -1,6 +1,7 @@
 // `dvrlab doctor` on machines that lack something: drivers and libraries are hidden by the environment.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "tests/app/program.h"
 
@@ -97,6 +98,14 @@ TEST_F(Doctor, BrokenPluginsAreNamed) {
   ASSERT_EQ(report["broken_plugins"].size(), 1u);
   EXPECT_EQ(report["broken_plugins"][0]["plugin"], "estimator/garbage");
   expect_words(report["broken_plugins"][0]["reason"], {"is not loadable"});
+}
+
+TEST_F(Doctor, PluginsThatWereNotBuiltAreThoseOfTheBuild) {
+  std::ifstream in(DVRLAB_BUILD "/lib/dvrlab/plugins_not_built.txt");
+  ASSERT_TRUE(in) << "the build writes it";
+  std::size_t expected = 0;
+  for (std::string line; std::getline(in, line);) expected += line.empty() ? 0 : 1;
+  EXPECT_EQ(json_of("dvrlab doctor --json")["plugins_not_built"].size(), expected);
 }
 
 TEST_F(Doctor, Cache) {
