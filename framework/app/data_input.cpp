@@ -33,6 +33,12 @@ bool names_data(const std::string& path, const Registry& registry) {
   return true;
 }
 
+void refuse_data(const std::string& path, const Registry& registry) {
+  if (names_data(path, registry))
+    throw InputError(path + ": is data; this verb takes a config (dvrlab info " + path +
+                     " --starter my.json writes one; dvrlab render takes data too)");
+}
+
 ConfigDocument data_document(const std::string& path, const std::vector<std::string>& set, const Registry& registry) {
   const ConfigJson section = {{"type", reader_of(path, registry)}, {"file", path}};
   return parse_document(ConfigJson({{"data", section}}).dump(), path, "", set);

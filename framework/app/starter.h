@@ -7,7 +7,8 @@
 
 namespace dvrlab {
 
-/// The config's text, with comments for a newcomer. Paths in it are relative to `folder` where that is possible.
+/// The config's text, with comments for a newcomer. The data's path is relative to `folder` when it
+/// lies near.
 /// Throws InputError for data without voxels.
 std::string starter_config(const LoadedData& data, const std::string& folder);
 

@@ -31,7 +31,7 @@ const std::vector<VerbText>& verb_texts() {
        "the case: resolved config, device, counters, times",
        {{"dvrlab render data/engine.nrrd -o image.png", "a picture of a data file, without a config"},
         {"dvrlab render my.json -o image.exr", "a config's image as floats"},
-        {"dvrlab render my.json --set sampling.step=0.25 --set backend.type=vulkan -o fine.png",
+        {"dvrlab render my.json --set sampling.step=0.25 --set image.background=[1,1,1] -o fine.png",
          "with other values for two keys"}}},
       {"run",
        images,
@@ -60,10 +60,10 @@ const std::vector<VerbText>& verb_texts() {
        "Compares two float images of one size: how many numbers differ, by how much at most, and every metric that is "
        "installed. The second image is the reference. Exit code 1 when they differ by more than the tolerance.",
        "the same numbers",
-       {{"dvrlab compare out/first_experiment/cases/sampling.step=1,backend=vulkan "
-         "out/first_experiment/cases/sampling.step=1,backend=cpu",
-         "two backends: the same bits?"},
-        {"dvrlab compare image.exr image.exr --tolerance 1e-3", "equal up to a thousandth?"}}},
+       {{"dvrlab compare out/first_experiment/cases/sampling.step=1,backend=cpu "
+         "out/first_experiment/cases/reference=fine --tolerance 0.5",
+         "how far is a case from the reference?"},
+        {"dvrlab compare image.exr image.exr", "the same image?"}}},
       {"probe",
        images,
        "list every segment of the ray through one pixel",

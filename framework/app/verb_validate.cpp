@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "framework/app/data_input.h"
 #include "framework/app/verbs.h"
 #include "framework/config/experiment.h"
 #include "framework/config/words.h"
@@ -10,6 +11,7 @@ namespace dvrlab {
 int validate_verb(const Options& o) {
   const Registry registry(o.plugin_path);
   try {
+    refuse_data(o.config, registry);
     const Experiment experiment = plan_experiment(load_document(o.config, o.set), registry);
     std::size_t references = 0;
     nlohmann::json ids = nlohmann::json::array();
