@@ -112,7 +112,8 @@ class ZipRun : public Run {
 };
 
 TEST_F(ZipRun, OrderAndWhereWork) {
-  const std::string both = R"({"zip": [{"sampling.step": [2, 1, 0.5], "sampling.termination": [0.0003, 0.0002, 0.0001]}]})";
+  const std::string both =
+      R"({"zip": [{"sampling.step": [2, 1, 0.5], "sampling.termination": [0.0003, 0.0002, 0.0001]}]})";
   EXPECT_EQ(exit_code(run_with(both, R"("order": {"by": "sampling.step", "is": "increasing"})")), 0);
   EXPECT_EQ(exit_code(run_with(both, R"("order": {"by": "sampling.step", "is": "decreasing"})")), 1);
   const RunSummary s = run_with(both, R"("at_most": 0, "where": {"sampling.termination": 0.0003})");
