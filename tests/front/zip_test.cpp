@@ -76,6 +76,16 @@ TEST(Zip, ErrorsNameThePlace) {
   expect_error(axes(R"({"permutations": {"seed": [3]}})"), {"axes.permutations", "did you mean 'permutation'?"});
 }
 
+TEST(Axes, KeysThatCannotBeVaried) {
+  for (const std::string key : {"", ".", "[0]", "lights[x].color", "name", "expect", "base_folder", "axes.variant"}) {
+    const std::vector<std::string> lines = errors_of(axes(R"({"permutation": {")" + key + R"(": [1, 2]}})"));
+    ASSERT_EQ(lines.size(), 1u) << key << ": " << testing::PrintToString(lines);
+    expect_words(lines[0], {"test.json:9:", "axes.permutation"});
+  }
+  expect_error(axes(R"({"permutation": {"name": ["a", "b"]}})"), {"axes.permutation.name", "one for all cases"});
+  expect_error(axes(R"({"permutation": {"lights[x].color": [1]}})"), {"'[x]' is no index"});
+}
+
 TEST(Zip, SetReachesIt) {
   EXPECT_EQ(plan(axes(zipped), {"axes.permutation.zip=[{\"seed\": [1, 2]}]"}).cases.size(), 2u);
   EXPECT_EQ(plan(axes(zipped), {"axes.permutation.zip[0].sampling.step=[4,3,2]"}).cases[0].id,
