@@ -1,5 +1,6 @@
 #include "framework/pipeline.h"
 
+#include <chrono>
 #include <exception>
 
 #include "framework/config/document.h"
@@ -27,6 +28,7 @@ RunSummary run_experiment(const RunOptions& options) {
   Measurer measurer(*experiment, registry);
   Progress progress(experiment->cases.size());
   RunSummary summary{results.folder(), {}, false, experiment->cases.size(), experiment};
+  auto table_written = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < experiment->cases.size() && !interrupted(); ++i) {
     const PlannedCase& c = experiment->cases[i];
     progress.show(i, c.id);
@@ -47,8 +49,11 @@ RunSummary run_experiment(const RunOptions& options) {
     }
     results.write_case(record);  // 7 report
     summary.records.push_back(std::move(record));
-    results.write_table(summary.records);
     measurer.done(i);
+    if (const auto now = std::chrono::steady_clock::now(); now - table_written > std::chrono::seconds(1)) {
+      results.write_table(summary.records);  // for who looks while it runs; the whole table each time
+      table_written = now;
+    }
   }
   summary.stopped = summary.records.size() < summary.planned;
   judge_expectations(*experiment, summary.records);

@@ -39,7 +39,9 @@ std::string how_to_have_one(const Experiment& experiment) {
 }  // namespace
 
 PlannedCase single_case(const Options& o, const Registry& registry) {
-  Experiment experiment = plan_experiment(document_of(o, registry), registry);
+  ConfigDocument document = document_of(o, registry);
+  document.tree.root.erase("expect");  // of the whole experiment: one case may be too few for them
+  Experiment experiment = plan_experiment(document, registry);
   PlannedCase* only = nullptr;
   std::size_t count = 0;
   for (PlannedCase& c : experiment.cases) {

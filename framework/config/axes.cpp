@@ -1,6 +1,7 @@
 #include "framework/config/axes.h"
 
 #include "framework/config/check_value.h"
+#include "framework/interfaces/error.h"
 #include "framework/plugin/registry.h"
 
 namespace dvrlab {
@@ -26,6 +27,20 @@ class AxesReader {
   std::vector<Axis> take() { return std::move(axes_); }
 
  private:
+  /// "" or why the key cannot be varied.
+  static std::string wrong_key(const std::string& key) {
+    try {
+      const std::vector<std::string> steps = split_path(key);
+      if (steps.empty() || steps.front().front() == '[') return "'" + key + "' is no key path";
+      for (const char* whole : {"name", "schema", "base_folder", "include", "axes", "reference", "expect"}) {
+        if (steps.front() == whole) return "an axis cannot change this key: it is one for all cases";
+      }
+      return "";
+    } catch (const InputError& e) {
+      return e.what();
+    }
+  }
+
   void bad(const std::string& path, const std::string& what) { problems_.add(tree_.where(path) + ": " + what); }
 
   /// A further key of the last axis.
@@ -35,6 +50,8 @@ class AxesReader {
         if (known.key == key) bad(path, "the key is an axis twice (a key is a permutation or a variant, in one place)");
       }
     }
+    const std::string wrong = wrong_key(key);
+    if (!wrong.empty()) bad(path, wrong);
     axes_.back().keys.push_back({key, axis_values(tree_, path, written, problems_)});
   }
 

@@ -58,7 +58,7 @@ ConfigTree CaseTrees::of_case(const Choice& choice, Problems& problems) const {
 }
 
 std::vector<std::string> CaseTrees::decided_by_reference(const std::string& name) const {
-  std::vector<std::string> decided;
+  std::vector<std::string> decided = {"sampling.termination"};
   for (const auto& [key, value] : patch_of(document_, name).items()) decided_paths(key, value, decided);
   return decided;
 }
@@ -68,10 +68,11 @@ ConfigTree CaseTrees::of_reference(const Choice& choice, const std::string& name
   const ConfigJson& patch = patch_of(document_, name);
   ConfigTree tree = of_case(choice, problems);
   tree.merge(document_, source, patch);
-  const std::vector<std::string> decided = decided_by_reference(name);
   // A reference runs every ray to its end unless it says otherwise.
-  if (terminates(tree) && std::find(decided.begin(), decided.end(), "sampling.termination") == decided.end() &&
-      !(patch.contains("sampling") && patch["sampling"].is_object() && patch["sampling"].contains("termination"))) {
+  const bool says =
+      patch.contains("sampling.termination") ||
+      (patch.contains("sampling") && patch["sampling"].is_object() && patch["sampling"].contains("termination"));
+  if (!says && terminates(tree)) {
     tree.graft("sampling.termination", 0, document_, source);
   }
   return tree;

@@ -27,7 +27,8 @@ class CaseTrees {
   ConfigTree of_case(const Choice& choice, Problems& problems) const;
   /// The case with `termination` 0 and then the reference's patch over it.
   ConfigTree of_reference(const Choice& choice, const std::string& name, Problems& problems) const;
-  /// The key paths that the patch of a reference sets: a section that names its type is set as a whole.
+  /// The key paths that a reference sets: those of its patch, where a section that names its type is set as a whole,
+  /// and `sampling.termination`.
   std::vector<std::string> decided_by_reference(const std::string& name) const;
 
  private:

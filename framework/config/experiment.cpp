@@ -87,15 +87,15 @@ class Planner {
     }
   }
 
+  /// How many views the camera of the choice stands for. An axis that decides which views there are says so itself.
   std::size_t views_of(const Choice& choice) {
     const std::size_t views = asked_views(trees_.of_case(choice, problems_));
-    if (views == 0) return 0;
-    for (std::size_t a = 0; a < outer_; ++a) {
+    for (std::size_t a = 0; a < axes_.size() && views > 0; ++a) {
       for (const AxisKey& k : axes_[a].keys) {
-        if (k.key != view_key) continue;
-        problems_.add(document_.tree.where(k.values[choice.value[a]].source) +
-                      ": null stands for all views, here and in the axis itself; give the index of a view");
-        return 0;
+        if (axes_[a].variant && decides_views(k.key)) return 0;  // refuse_open_views has the words
+        if (k.key == view_key)
+          throw InputError(document_.tree.where(k.values[choice.value[a]].source) +
+                           ": null stands for all views, which are an axis of their own; give the index of a view");
       }
     }
     return views;

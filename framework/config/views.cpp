@@ -45,6 +45,10 @@ std::size_t asked_views(const ConfigTree& tree) {
   return wrong_value(p, views).empty() ? views.get<std::size_t>() : 0;
 }
 
+bool decides_views(const std::string& key) {
+  return decided_by(view_key, key) || key == "camera.type" || key == "camera.views";
+}
+
 bool may_orbit(const ConfigTree& tree, const std::vector<Axis>& axes) {
   const ConfigJson* type = tree.find("camera.type");
   return (type != nullptr && is_orbit(*type)) || std::any_of(axes.begin(), axes.end(), [](const Axis& axis) {

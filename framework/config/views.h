@@ -16,6 +16,9 @@ inline constexpr const char* view_key = "camera.view";
 /// that is illegal counts as 0 too: whoever resolves the camera says so.
 std::size_t asked_views(const ConfigTree& tree);
 
+/// True if setting the key changes which views there are.
+bool decides_views(const std::string& key);
+
 /// True if the camera may be an orbit: as it is written in `tree`, or by one of the axes.
 bool may_orbit(const ConfigTree& tree, const std::vector<Axis>& axes);
 
