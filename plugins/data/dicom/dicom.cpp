@@ -52,7 +52,8 @@ std::vector<std::string> notes_of(const Opened& o) {
       compressed != o.images.end())
     notes.push_back("the pixels were decompressed by GDCM, transfer syntax " + compressed->format.compression);
   if (o.stack.format.inverted)
-    notes.push_back("MONOCHROME1: the values are kept; the convention to show low ones white is the transfer function's");
+    notes.push_back(
+        "MONOCHROME1: the values are kept; the convention to show low ones white is the transfer function's");
   return notes;
 }
 

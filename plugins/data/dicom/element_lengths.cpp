@@ -69,8 +69,8 @@ class Walk {
     if (length != undefined && length > file_.size() - at_) fail(tag, begin, length);
     if (tag == transfer_syntax && length != undefined) syntax_ = text(at_, length);
     if (length == undefined) return vr != "UN";  // its elements follow; those of an unknown one are coded otherwise
-    const bool nested = tag == item ? !fragments_
-                                    : vr == "SQ" || (vr.empty() && length >= 8 && number(at_, 2) == 0xfffe);
+    const bool nested =
+        tag == item ? !fragments_ : vr == "SQ" || (vr.empty() && length >= 8 && number(at_, 2) == 0xfffe);
     if (!nested) at_ += length;
     return true;
   }

@@ -39,8 +39,7 @@ struct Read {
 // Everything in front of the pixels.
 Read read_elements(const std::string& file) {
   const auto mapped = MappedFile::open(file);
-  if (!has_magic(mapped->bytes()))
-    throw InputError(file + ": is no DICOM file; \"DICM\" does not stand at byte 128");
+  if (!has_magic(mapped->bytes())) throw InputError(file + ": is no DICOM file; \"DICM\" does not stand at byte 128");
   check_lengths(mapped->bytes(), file);
   gdcm::Reader reader;
   reader.SetFileName(file.c_str());
@@ -75,11 +74,11 @@ PixelFormat read_format(const Read& r) {
   if (f.allocated != 8 && f.allocated != 16)
     e.fail(bits_allocated, "is " + std::to_string(f.allocated) + "; pixels of 8 and 16 bits are read");
   if (f.stored < 1 || f.stored > f.allocated)
-    e.fail(bits_stored, "is " + std::to_string(f.stored) + "; must lie between 1 and BitsAllocated, " +
-                            std::to_string(f.allocated));
+    e.fail(bits_stored,
+           "is " + std::to_string(f.stored) + "; must lie between 1 and BitsAllocated, " + std::to_string(f.allocated));
   if (e.whole(high_bit, f.stored - 1) != f.stored - 1)
-    e.fail(high_bit, "is " + std::to_string(e.whole(high_bit)) + "; only the lowest bits, BitsStored - 1 = " +
-                         std::to_string(f.stored - 1) + ", are read");
+    e.fail(high_bit, "is " + std::to_string(e.whole(high_bit)) +
+                         "; only the lowest bits, BitsStored - 1 = " + std::to_string(f.stored - 1) + ", are read");
   f.is_signed = e.whole(pixel_representation, 0) == 1;
   if (r.syntax.IsEncapsulated()) f.compression = r.syntax.GetString();
   return f;
@@ -154,8 +153,8 @@ std::optional<ImageHeader> read_header(const std::string& file) {
   h.format = read_format(r);
   const int frames = count_frames(e);
   if (frames > 1 && !e.item(per_frame_groups, 0))
-    e.fail(number_of_frames, "is " + std::to_string(frames) +
-                                 ", but the frames have no positions (PerFrameFunctionalGroupsSequence)");
+    e.fail(number_of_frames,
+           "is " + std::to_string(frames) + ", but the frames have no positions (PerFrameFunctionalGroupsSequence)");
   const std::uint64_t pixels = h.format.plane_bytes() * static_cast<std::uint64_t>(frames);
   if (h.format.compression.empty() && !r.syntax.IsEncoded() && pixels > h.file_bytes)
     throw InputError(file + ": its header announces " + std::to_string(pixels) + " bytes of pixels, the file has " +

@@ -26,9 +26,11 @@ struct PixelFormat {
   int columns = 0, rows = 0;
   int allocated = 16, stored = 16;  // bits of a pixel's place, and of its value
   bool is_signed = false;
-  bool inverted = false;        // MONOCHROME1: shown with white for the lowest value
-  std::string compression;      // UID of a compressed transfer syntax, "" for plain pixels
-  std::uint64_t plane_bytes() const { return std::uint64_t(columns) * std::uint64_t(rows) * std::uint64_t(allocated / 8); }
+  bool inverted = false;    // MONOCHROME1: shown with white for the lowest value
+  std::string compression;  // UID of a compressed transfer syntax, "" for plain pixels
+  std::uint64_t plane_bytes() const {
+    return std::uint64_t(columns) * std::uint64_t(rows) * std::uint64_t(allocated / 8);
+  }
 };
 
 struct ImageHeader {

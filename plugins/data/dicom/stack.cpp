@@ -31,7 +31,8 @@ std::string text(double x) {
 std::string name_of(const Slice& s) { return s.frame == 0 ? s.file : s.file + " frame " + std::to_string(s.frame + 1); }
 
 [[noreturn]] void differ(const std::string& a, const std::string& b, const std::string& what) {
-  throw InputError(b + ": has " + what + " " + a + "; the slices of a volume agree in it (two scans under one series?)");
+  throw InputError(b + ": has " + what + " " + a +
+                   "; the slices of a volume agree in it (two scans under one series?)");
 }
 
 void check_formats(const std::vector<ImageHeader>& images) {
@@ -123,9 +124,8 @@ Stack make_stack(const std::vector<ImageHeader>& images) {
   check_planes(slices);
   const Slice& first = slices.front();
   const Vector3 normal = cross(first.along_row, first.along_column);
-  std::stable_sort(slices.begin(), slices.end(), [&](const Slice& a, const Slice& b) {
-    return dot(a.position, normal) < dot(b.position, normal);
-  });
+  std::stable_sort(slices.begin(), slices.end(),
+                   [&](const Slice& a, const Slice& b) { return dot(a.position, normal) < dot(b.position, normal); });
   std::vector<double> at;
   for (const Slice& s : slices) at.push_back(dot(s.position, normal));
   check_distances(slices, at);
@@ -136,7 +136,7 @@ Stack make_stack(const std::vector<ImageHeader>& images) {
                           " degrees (gantry tilt); the affine follows them, nothing is resampled");
   const Slice& s = slices.front();
   for (std::size_t r = 0; r < 3; ++r) {
-    const double sign = r < 2 ? -1 : 1;  // LPS -> RAS
+    const double sign = r < 2 ? -1 : 1;                                      // LPS -> RAS
     stack.to_world.m[3 * r] = 0 + sign * s.along_row[r] * s.column_spacing;  // 0 +: no negative zero
     stack.to_world.m[3 * r + 1] = 0 + sign * s.along_column[r] * s.row_spacing;
     stack.to_world.m[3 * r + 2] = 0 + sign * step[r];

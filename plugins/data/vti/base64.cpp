@@ -38,9 +38,8 @@ bool Base64::refill() {
   }
   bytes_ = taken_ = 0;
   if (n == 0) return false;
-  const int decoded = n % 4 == 0 && padding <= 2
-                          ? EVP_DecodeBlock(decoded_.data(), characters.data(), static_cast<int>(n))
-                          : -1;
+  const int decoded =
+      n % 4 == 0 && padding <= 2 ? EVP_DecodeBlock(decoded_.data(), characters.data(), static_cast<int>(n)) : -1;
   if (decoded < 0)
     throw InputError(where_ + ": no base64 in the 4096 characters before character " + std::to_string(at_) +
                      " of its text; the file is cut off or damaged");

@@ -35,9 +35,9 @@ std::uint64_t unpack_block(Compression compression, std::span<const std::byte> i
   }
   std::uint64_t memory = 256 << 20;
   std::size_t read = 0, written = 0;
-  const auto result = lzma_stream_buffer_decode(
-      &memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(in.data()), &read, in.size(),
-      reinterpret_cast<std::uint8_t*>(out.data()), &written, out.size());
+  const auto result =
+      lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(in.data()), &read, in.size(),
+                                reinterpret_cast<std::uint8_t*>(out.data()), &written, out.size());
   return result == LZMA_OK ? written : 0;
 }
 
@@ -77,8 +77,8 @@ void unpack(const BlockTable& table, Compression compression, std::span<const st
     for (std::uint64_t i = begin; i < end; ++i) {
       const BlockTable::Block& b = table.block[i];
       const std::string here = where + ": block " + std::to_string(i);
-      const auto found = unpack_block(compression, packed.subspan(b.packed_at, b.packed), out.subspan(b.at, b.bytes),
-                                      here);
+      const auto found =
+          unpack_block(compression, packed.subspan(b.packed_at, b.packed), out.subspan(b.at, b.bytes), here);
       if (found != b.bytes)
         throw InputError(here + " does not hold the " + std::to_string(b.bytes) +
                          " bytes that its table announces; the file is damaged");

@@ -53,8 +53,8 @@ std::size_t choose_component(const DataArray& array, const Wanted& wanted, const
                      wanted.component_key + ", 0 to " + std::to_string(n - 1));
   if (chosen >= n)
     throw InputError(wanted.component_key + ": is " + std::to_string(chosen) + ", but the array has " +
-                     std::to_string(n) + (n == 1 ? " component" : " components, 0 to " + std::to_string(n - 1)) +
-                     " (" + where + ")");
+                     std::to_string(n) + (n == 1 ? " component" : " components, 0 to " + std::to_string(n - 1)) + " (" +
+                     where + ")");
   return static_cast<std::size_t>(std::max(chosen, 0ll));
 }
 
@@ -115,8 +115,8 @@ void place_part(const Part& part, const SourceVoxels& values, std::size_t compon
   const auto* in = static_cast<const std::byte*>(values.data.get()) + size * component;
   for (long long z = e[4]; z <= e[5]; ++z)
     for (long long y = e[2]; y <= e[3]; ++y) {
-      std::byte* out = volume + size * static_cast<std::size_t>(
-                                          ((z - whole[4]) * dims[1] + (y - whole[2])) * dims[0] + (e[0] - whole[0]));
+      std::byte* out = volume + size * static_cast<std::size_t>(((z - whole[4]) * dims[1] + (y - whole[2])) * dims[0] +
+                                                                (e[0] - whole[0]));
       for (long long x = e[0]; x <= e[1]; ++x, in += stride, out += size)
         values.swap ? std::reverse_copy(in, in + size, out) : std::copy_n(in, size, out);
     }

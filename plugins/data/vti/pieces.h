@@ -12,8 +12,8 @@ namespace dvrlab::vti {
 
 /// What the config asks for.
 struct Wanted {
-  std::string array;          // "" for the active one, or the only one
-  long long component = -1;   // -1: the array has only one
+  std::string array;                     // "" for the active one, or the only one
+  long long component = -1;              // -1: the array has only one
   std::string array_key, component_key;  // their places in the config, for errors
 };
 

@@ -105,8 +105,7 @@ class Vti : public DataPlugin {
     if (array.components > 1)
       notes.push_back("component " + std::to_string(o.parts.component) + " of " + std::to_string(array.components) +
                       " is read");
-    if (o.parts.part.size() > 1)
-      notes.push_back(std::to_string(o.parts.part.size()) + " pieces were put together");
+    if (o.parts.part.size() > 1) notes.push_back(std::to_string(o.parts.part.size()) + " pieces were put together");
     return notes;
   }
 };

@@ -139,8 +139,7 @@ class Reader : public XmlVisitor {
 
   void read_appended(const XmlElement& e, const Attributes& a) {
     const std::string encoding = a.require("encoding");
-    if (encoding != "raw" && encoding != "base64")
-      a.fail("encoding is \"" + encoding + "\"; must be raw or base64");
+    if (encoding != "raw" && encoding != "base64") a.fail("encoding is \"" + encoding + "\"; must be raw or base64");
     header_.appended_base64 = encoding == "base64";
     auto rest = file_.subspan(e.tag_end);
     const auto begin = std::find_if_not(rest.begin(), rest.end(), is_space);

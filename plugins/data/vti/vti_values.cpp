@@ -160,9 +160,9 @@ std::shared_ptr<const void> read_ascii(std::span<const std::byte> text, SourceTy
 
 SourceType type_of(const DataArray& array, const std::string& where) {
   using enum SourceType;
-  static const std::map<std::string, SourceType> types{{"Int8", i8},   {"UInt8", u8},   {"Int16", i16}, {"UInt16", u16},
-                                                       {"Int32", i32}, {"UInt32", u32}, {"Int64", i64}, {"UInt64", u64},
-                                                       {"Float32", f32}, {"Float64", f64}};
+  static const std::map<std::string, SourceType> types{
+      {"Int8", i8},    {"UInt8", u8},  {"Int16", i16},  {"UInt16", u16},  {"Int32", i32},
+      {"UInt32", u32}, {"Int64", i64}, {"UInt64", u64}, {"Float32", f32}, {"Float64", f64}};
   const auto found = types.find(array.type);
   if (found == types.end())
     throw InputError(where + ": type \"" + array.type +
