@@ -14,7 +14,8 @@ bool have_vti() {
 class Vti : public testing::Test {
  protected:
   void SetUp() override {
-    if (!have_vti()) GTEST_SKIP() << "not supported: the vti plugin is not built (libexpat1-dev, liblz4-dev, liblzma-dev)";
+    if (!have_vti())
+      GTEST_SKIP() << "not supported: the vti plugin is not built (libexpat1-dev, liblz4-dev, liblzma-dev)";
   }
 };
 
@@ -134,8 +135,11 @@ TEST_F(Vti, PiecesArePutTogether) {
       if (n % 4 <= 2) left.push_back(v[n]);
       if (n % 4 >= 2) right.push_back(v[n]);
     }
-    const VtiFile f{c, "0 3 0 2 0 1", "", {{"2 3 0 2 0 1", "", {vti_array("v", "Int16", right, c)}},
-                                           {"0 2 0 2 0 1", "", {vti_array("v", "Int16", left, c)}}}};
+    const VtiFile f{c,
+                    "0 3 0 2 0 1",
+                    "",
+                    {{"2 3 0 2 0 1", "", {vti_array("v", "Int16", right, c)}},
+                     {"0 2 0 2 0 1", "", {vti_array("v", "Int16", left, c)}}}};
     const auto grid = load_grid("vti", {{"file", file_of(f)}});
     for (int n = 0; n < 24; ++n) EXPECT_EQ(grid->at(n % 4, n / 4 % 3, n / 12), v[static_cast<std::size_t>(n)]);
     EXPECT_TRUE(has_note(*grid, "2 pieces"));
@@ -158,7 +162,8 @@ TEST_F(Vti, BytesNeeded) {
   const auto needed = [&](const VtiCoding& c, int components) {
     VtiFile f = small();
     f.coding = c;
-    f.pieces[0].arrays = {vti_array("v", "Float64", numbers<double>(24 * static_cast<std::size_t>(components)), c, components)};
+    f.pieces[0].arrays = {
+        vti_array("v", "Float64", numbers<double>(24 * static_cast<std::size_t>(components)), c, components)};
     return plugin.bytes_needed(
         parameters("data", "vti", {{"file", file_of(f)}, {"component", components == 1 ? -1 : 1}}), {});
   };
@@ -201,7 +206,8 @@ TEST_F(Vti, ShippedFile) {
 TEST_F(Vti, SameVoxelsAsNrrd) {
   const std::string file = shared_data("volumes/engine.vti");
   if (file.empty()) GTEST_SKIP() << "not supported: no data: volumes/engine.vti";
-  const auto a = load_grid("vti", {{"file", file}}), b = load_grid("nrrd", {{"file", DVRLAB_SHIPPED_DATA "/engine.nrrd"}});
+  const auto a = load_grid("vti", {{"file", file}}),
+             b = load_grid("nrrd", {{"file", DVRLAB_SHIPPED_DATA "/engine.nrrd"}});
   ASSERT_EQ(a->bytes(), b->bytes());
   EXPECT_EQ(std::memcmp(a->voxels.get(), b->voxels.get(), a->bytes()), 0);
 }

@@ -19,8 +19,8 @@ Bytes packed(const Bytes& in, const std::string& compressor) {
   }
 #ifdef DVRLAB_TEST_COMPRESSORS
   if (compressor == "vtkLZ4DataCompressor") {
-    out.resize(static_cast<std::size_t>(LZ4_compress_default(in.data(), out.data(), static_cast<int>(in.size()),
-                                                             static_cast<int>(out.size()))));
+    out.resize(static_cast<std::size_t>(
+        LZ4_compress_default(in.data(), out.data(), static_cast<int>(in.size()), static_cast<int>(out.size()))));
     return out;
   }
   if (compressor == "vtkLZMADataCompressor") {
@@ -49,8 +49,7 @@ Bytes vti_base64(const Bytes& bytes) {
     std::uint32_t x = 0;
     for (std::size_t k = 0; k < 3; ++k)
       x = x << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out.push_back(i + k <= bytes.size() ? digits[x >> (18 - 6 * k) & 63u] : '=');
+    for (std::size_t k = 0; k < 4; ++k) out.push_back(i + k <= bytes.size() ? digits[x >> (18 - 6 * k) & 63u] : '=');
   }
   return out;
 }
