@@ -51,6 +51,11 @@ int Elements::whole(const Key& key) const {
 
 int Elements::whole(const Key& key, int otherwise) const { return has(key) ? whole(key) : otherwise; }
 
+void Elements::fail_decimals(const Key& key, const std::string& text, std::size_t count) const {
+  fail(key, "is \"" + text.substr(0, 80) + "\"; must be " +
+                (count == 1 ? "a finite number" : std::to_string(count) + " finite numbers"));
+}
+
 std::vector<double> Elements::decimals(const Key& key, std::size_t count) const {
   std::vector<double> out;
   const std::string all = text(key);
@@ -61,13 +66,11 @@ std::vector<double> Elements::decimals(const Key& key, std::size_t count) const 
     if (word.starts_with('+')) word.remove_prefix(1);
     double x = 0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-    if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(x))
-      fail(key, "is \"" + all.substr(0, 80) + "\"; must be " + std::to_string(count) + " finite numbers");
+    if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(x)) fail_decimals(key, all, count);
     out.push_back(x);
     at = end + 1;
   }
-  if (out.size() != count)
-    fail(key, "is \"" + all.substr(0, 80) + "\"; must be " + std::to_string(count) + " finite numbers");
+  if (out.size() != count) fail_decimals(key, all, count);
   return out;
 }
 

@@ -37,6 +37,7 @@ class Elements {
   const std::string& name() const { return name_; }
 
  private:
+  [[noreturn]] void fail_decimals(const Key& key, const std::string& text, std::size_t count) const;
   gdcm::DataSet set_;
   std::string name_;
 };

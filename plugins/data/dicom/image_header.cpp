@@ -7,6 +7,7 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/scene/mapped_file.h"
+#include "plugins/data/dicom/child.h"
 #include "plugins/data/dicom/element_lengths.h"
 #include "plugins/data/dicom/elements.h"
 
@@ -41,6 +42,7 @@ Read read_elements(const std::string& file) {
   const auto mapped = MappedFile::open(file);
   if (!has_magic(mapped->bytes())) throw InputError(file + ": is no DICOM file; \"DICM\" does not stand at byte 128");
   check_lengths(mapped->bytes(), file);
+  reading(file);
   gdcm::Reader reader;
   reader.SetFileName(file.c_str());
   bool good = false;

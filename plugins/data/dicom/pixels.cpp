@@ -6,26 +6,36 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <new>
 #include <sstream>
 
 #include "framework/interfaces/error.h"
 #include "framework/scene/voxels.h"
+#include "plugins/data/dicom/child.h"
 
 namespace dvrlab::dicom {
 namespace {
 
+void check_size(const ImageHeader& h, std::uint64_t found, std::uint64_t wanted) {
+  if (found == wanted) return;
+  throw InputError(h.file + ": its pixels are " + std::to_string(found) + " bytes, its header announces " +
+                   std::to_string(wanted) + "; it is cut off or its header is wrong");
+}
+
 // All frames of a file.
 std::vector<char> decode(const ImageHeader& h) {
   const std::uint64_t wanted = h.format.plane_bytes() * h.slice.size();
-  const std::string how = h.format.compression.empty() ? "" : ", transfer syntax " + h.format.compression;
+  const bool plain = h.format.compression.empty();
+  reading(h.file);
   try {
     gdcm::ImageReader reader;
     reader.SetFileName(h.file.c_str());
     if (reader.Read()) {
       const gdcm::Image& image = reader.GetImage();
-      if (image.GetBufferLength() != wanted)
-        throw InputError(h.file + ": its pixels are " + std::to_string(image.GetBufferLength()) +
-                         " bytes, its header announces " + std::to_string(wanted) + how);
+      check_size(h, image.GetBufferLength(), wanted);
+      // The library fills what is missing with whatever lies in memory; an odd length has a byte of padding.
+      const gdcm::ByteValue* stored = image.GetDataElement().GetByteValue();
+      if (plain && stored) check_size(h, std::min<std::uint64_t>(stored->GetLength(), wanted), wanted);
       std::vector<char> bytes(wanted);
       if (image.GetBuffer(bytes.data())) return bytes;
     }
@@ -33,7 +43,8 @@ std::vector<char> decode(const ImageHeader& h) {
     throw;
   } catch (const std::exception&) {  // of the library; the reason is not for readers of configs
   }
-  throw InputError(h.file + ": GDCM cannot decode its pixels" + how + "; they are cut off or damaged");
+  throw InputError(h.file + ": GDCM cannot decode its pixels" +
+                   (plain ? "" : ", transfer syntax " + h.format.compression) + "; they are cut off or damaged");
 }
 
 // The pixel's BitsStored lowest bits, with their sign. Bits above them may hold overlays.
@@ -99,12 +110,17 @@ VoxelType type_of(const Stack& stack) {
 void set_pixels(GridField& grid, const Stack& stack, const std::vector<ImageHeader>& images) {
   const bool scaled = !stack.one_scaling();
   grid.type = type_of(stack);
-  const auto volume = allocate_voxels(grid.bytes(), grid.source);
+  const auto volume = shared_memory(grid.bytes(), grid.source);
+  const auto shared_outcome = shared_memory(sizeof(Outcome), grid.source);
+  Outcome& outcome = *new (shared_outcome.get()) Outcome{};
   const bool wide = stack.format.allocated == 16, is_signed = stack.format.is_signed;
-  const Outcome outcome = wide ? (is_signed ? place_all<std::int16_t>(volume.get(), scaled, stack, images)
-                                            : place_all<std::uint16_t>(volume.get(), scaled, stack, images))
-                               : (is_signed ? place_all<std::int8_t>(volume.get(), scaled, stack, images)
-                                            : place_all<std::uint8_t>(volume.get(), scaled, stack, images));
+  in_child([&] {
+    const auto place = [&]<class T>(T) { outcome = place_all<T>(volume.get(), scaled, stack, images); };
+    if (wide)
+      is_signed ? place(std::int16_t{}) : place(std::uint16_t{});
+    else
+      is_signed ? place(std::int8_t{}) : place(std::uint8_t{});
+  });
   grid.voxels = volume;
   grid.slope = scaled ? 1 : stack.slice.front().slope;
   grid.intercept = scaled ? 0 : stack.slice.front().intercept;
