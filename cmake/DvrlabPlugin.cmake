@@ -122,4 +122,7 @@ function(dvrlab_plugin_summary)
   foreach(line ${skipped})
     message(STATUS "dvrlab plugin NOT built: ${line}")
   endforeach()
+  # For `dvrlab doctor`: one line per plugin, "kind/name: reason".
+  list(JOIN skipped "\n" text)
+  file(WRITE ${DVRLAB_PLUGIN_OUTPUT}/../plugins_not_built.txt "${text}\n")
 endfunction()

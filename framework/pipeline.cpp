@@ -56,6 +56,7 @@ RunSummary run_experiment(const RunOptions& options) {
     if (!r.expectations.empty()) results.write_case(r);
   }
   results.write_table(summary.records);
+  results.write_views(summary.records);
   return summary;
 }
 

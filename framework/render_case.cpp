@@ -1,27 +1,16 @@
 #include "framework/render_case.h"
 
 #include <chrono>
-#include <fstream>
 
 #include "framework/interfaces/error.h"
 #include "framework/report/interrupt.h"
 #include "framework/report/log.h"
+#include "framework/scene/system_memory.h"
 
 namespace dvrlab {
 namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-std::uint64_t available_memory() {
-  std::ifstream in("/proc/meminfo");
-  std::string name, unit;
-  std::uint64_t kib = 0;
-  while (in >> name >> kib) {
-    std::getline(in, unit);
-    if (name == "MemAvailable:") return kib * 1024;
-  }
-  throw NotSupported("/proc/meminfo does not say how much memory is available");
-}
 
 /// What a scene depends on: everything but the backend and what is only said about the case.
 std::string scene_key(const ResolvedCase& c) {
@@ -73,7 +62,8 @@ nlohmann::json scene_section(const Scene& s, double seconds) {
 
 }  // namespace
 
-CaseRenderer::CaseRenderer(const Registry& registry) : registry_(registry), memory_at_start_(available_memory()) {}
+CaseRenderer::CaseRenderer(const Registry& registry)
+    : registry_(registry), memory_at_start_(system_memory().available) {}
 
 const Scene& CaseRenderer::scene(const ResolvedCase& c, CaseRecord& record) {
   const std::string key = scene_key(c);
@@ -123,6 +113,7 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   MemoryBill memory = bill(c);
   memory.state("data and tables", bytes_of(scene.job));
   memory.state("backend '" + c.backend.type + "'", static_cast<double>(backend.bytes_needed(scene.job)));
+  record.memory = memory.parts();
   FrameResult frame;
   for (long long i = 0; i < c.top.integer("warmup") && !interrupted(); ++i) {
     frame = {};

@@ -50,6 +50,18 @@ class CpuSession : public BackendSession {
 
 class Cpu : public BackendPlugin {
  public:
+  BackendReport report() const override {
+    std::string isas;
+    for (const std::string& isa : cpu::usable_isas()) isas += (isas.empty() ? "" : ", ") + isa;
+    DeviceReport d;
+    d.name = cpu::processor_name();
+    d.driver = "kernel modules";
+    d.api = "C++ SIMD";
+    d.property = {{"instruction sets", isas},
+                  {"isa \"auto\"", cpu::choose_isa("auto")},
+                  {"threads", std::to_string(cpu::thread_count(0))}};
+    return {{d}, "", ""};
+  }
   bool supports_fast() const override { return false; }
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string& folder) const override {
     return std::make_unique<CpuSession>(p, folder);

@@ -19,12 +19,15 @@ bool usable(const std::string& isa) {
 }
 }  // namespace
 
+std::vector<std::string> usable_isas() {
+  std::vector<std::string> isas;
+  for (const char* isa : {"scalar", "sse4.2", "avx2", "avx512"})
+    if (usable(isa)) isas.emplace_back(isa);
+  return isas;
+}
+
 std::string choose_isa(const std::string& wanted) {
-  if (wanted == "auto") {
-    for (const char* isa : {"avx512", "avx2", "sse4.2"})
-      if (usable(isa)) return isa;
-    return "scalar";
-  }
+  if (wanted == "auto") return usable_isas().back();
   if (!usable(wanted))
     throw NotSupported("backend cpu: this processor (" + processor_name() + ") has no " + wanted +
                        "; use isa \"auto\"");

@@ -1,8 +1,8 @@
 #include "backends/opengl/device.h"
 
-#include <algorithm>
 #include <stdexcept>
 
+#include "backends/opengl/limits.h"
 #include "framework/interfaces/error.h"
 
 namespace dvrlab {
@@ -40,12 +40,6 @@ void APIENTRY collect(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, con
   const_cast<std::vector<std::string>*>(static_cast<const std::vector<std::string>*>(messages))->push_back(text);
 }
 
-std::int64_t limit(const GlFunctions& gl, GLenum name) {
-  GLint64 value = 0;
-  gl.GetInteger64v(name, &value);
-  return value;
-}
-
 }  // namespace
 
 GlDevice::GlDevice(const std::string& device, bool debug)
@@ -56,11 +50,7 @@ GlDevice::GlDevice(const std::string& device, bool debug)
     gl_.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     gl_.DebugMessageCallback(collect, &messages_);
   }
-  limits_.target = ShaderTarget::opengl;
-  limits_.buffer_range = std::uint64_t(limit(gl_, GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
-  limits_.uniform_range = std::uint64_t(limit(gl_, GL_MAX_UNIFORM_BLOCK_SIZE));
-  limits_.storage_buffers = int(
-      std::min(limit(gl_, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS), limit(gl_, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)));
+  limits_ = shader_limits(gl_);
   GLint bits = 0;
   gl_.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
   has_clock_ = bits > 0;

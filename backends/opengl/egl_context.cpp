@@ -81,6 +81,30 @@ std::vector<EglDevice> egl_devices(const EglFunctions& egl, const char* client) 
 
 }  // namespace
 
+void open_egl() { egl_functions(); }
+
+std::vector<EglCandidate> EglContext::all() {
+  const EglFunctions& egl = egl_functions();
+  const char* client = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  std::vector<EglCandidate> candidates;
+  const auto attempt = [&](EglCandidate candidate, EGLDisplay display) {
+    try {
+      candidate.context.reset(new EglContext(egl, display, false));
+    } catch (const NotSupported& e) {
+      candidate.reason = e.what();
+    }
+    candidates.push_back(std::move(candidate));
+  };
+  const std::vector<EglDevice> devices = egl_devices(egl, client);
+  for (std::size_t d = 0; d < devices.size(); ++d)
+    attempt({"EGL device " + std::to_string(d), int(d), devices[d].software, nullptr, ""}, devices[d].display);
+  const auto platform_display = egl.extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  if (has_word(client, "EGL_MESA_platform_surfaceless") && platform_display != nullptr)
+    attempt({"surfaceless platform", -1, false, nullptr, ""},
+            platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  return candidates;
+}
+
 std::unique_ptr<EglContext> EglContext::open(const std::string& device, bool debug) {
   const EglFunctions& egl = egl_functions();
   const char* client = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

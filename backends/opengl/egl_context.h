@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "backends/opengl/gl_functions.h"
 
@@ -14,8 +15,24 @@ namespace dvrlab {
 /// The functions of libEGL.so.1, opened at run time and never closed.
 struct EglFunctions;
 
+class EglContext;
+
+/// One way to OpenGL without a display.
+struct EglCandidate {
+  std::string way;        // "EGL device 0", "surfaceless platform"
+  int index = -1;         // of the EGL device, as a config's `device` names it; -1 for the surfaceless platform
+  bool software = false;  // the EGL device says so itself
+  std::unique_ptr<EglContext> context;
+  std::string reason;  // why there is no context
+};
+
+/// The EGL library is there. Throws NotSupported when it is not installed.
+void open_egl();
+
 class EglContext {
  public:
+  /// Every way, each tried. Throws NotSupported when EGL itself is missing.
+  static std::vector<EglCandidate> all();
   /// "" = the first EGL device that is no software renderer, then the surfaceless platform, then a software device;
   /// else an index of the EGL devices or a part of GL_RENDERER in any case. Throws NotSupported with the reasons.
   static std::unique_ptr<EglContext> open(const std::string& device, bool debug);

@@ -1,5 +1,6 @@
 // Backend "opengl": the march as one compute shader. See opengl.md.
 #include "backends/opengl/device.h"
+#include "backends/opengl/report.h"
 #include "framework/shader/gpu_session.h"
 
 namespace dvrlab {
@@ -19,6 +20,7 @@ constexpr Parameter parameters[] = {
 
 class OpenGl final : public BackendPlugin {
  public:
+  BackendReport report() const override { return opengl_report(); }
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string&) const override {
     return std::make_unique<GpuSession>(std::make_unique<GlDevice>(p.text("device"), p.boolean("debug")),
                                         p.number("band_ms") * 1e-3);

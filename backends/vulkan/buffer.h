@@ -1,9 +1,8 @@
 // A buffer with its own memory.
 #pragma once
 
-#include <vulkan/vulkan.h>
-
 #include "backends/vulkan/context.h"
+#include "backends/vulkan/loader.h"
 #include "framework/shader/gpu_device.h"
 
 namespace dvrlab {

@@ -1,10 +1,10 @@
 // A logical device with one compute queue: what buffers and programs are made of.
 #pragma once
 
-#include <vulkan/vulkan.h>
-
 #include <cstdint>
 #include <functional>
+
+#include "backends/vulkan/loader.h"
 
 namespace dvrlab {
 

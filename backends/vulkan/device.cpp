@@ -5,16 +5,12 @@
 #include <stdexcept>
 
 #include "backends/vulkan/limits.h"
+#include "backends/vulkan/report.h"
 
 namespace dvrlab {
 namespace {
 
 constexpr std::uint64_t staging_bytes = 32u << 20;
-
-std::string version_text(std::uint32_t version) {
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-         std::to_string(VK_API_VERSION_PATCH(version));
-}
 
 void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,
              VkAccessFlags read) {
@@ -43,16 +39,7 @@ DeviceInfo VulkanDevice::info() const {
   const VkPhysicalDeviceProperties& properties = context_.properties();
   DeviceInfo info;
   info.device = properties.deviceName;
-  info.driver = version_text(properties.driverVersion);
-  if (properties.apiVersion >= VK_API_VERSION_1_2) {
-    VkPhysicalDeviceDriverProperties driver{};
-    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-    VkPhysicalDeviceProperties2 chain{};
-    chain.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-    chain.pNext = &driver;
-    vkGetPhysicalDeviceProperties2(context_.physical(), &chain);
-    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-  }
+  info.driver = driver_text(context_.physical());
   info.api = "Vulkan " + version_text(properties.apiVersion);
   info.detail = "storage buffers of " + std::to_string(limits_.buffer_range) + " bytes, " +
                 std::to_string(limits_.storage_buffers) + " at once; march timed by " +
@@ -60,14 +47,7 @@ DeviceInfo VulkanDevice::info() const {
   return info;
 }
 
-std::uint64_t VulkanDevice::memory() const {
-  std::uint64_t bytes = 0;
-  const VkPhysicalDeviceMemoryProperties& memory = context_.memory();
-  for (std::uint32_t h = 0; h < memory.memoryHeapCount; ++h)
-    if ((memory.memoryHeaps[h].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
-      bytes = std::max(bytes, memory.memoryHeaps[h].size);
-  return bytes;
-}
+std::uint64_t VulkanDevice::memory() const { return largest_heap(context_.memory()); }
 
 bool VulkanDevice::shares_memory() const { return all_memory_is_visible(context_.memory()); }
 

@@ -17,15 +17,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, V
   return VK_FALSE;
 }
 
-bool has_validation_layer() {
-  std::uint32_t count = 0;
-  vkEnumerateInstanceLayerProperties(&count, nullptr);
-  std::vector<VkLayerProperties> layers(count);
-  vkEnumerateInstanceLayerProperties(&count, layers.data());
-  return std::any_of(layers.begin(), layers.end(),
-                     [](const VkLayerProperties& l) { return std::strcmp(l.layerName, validation_layer) == 0; });
-}
-
 int rank(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -43,10 +34,33 @@ int rank(VkPhysicalDeviceType type) {
 
 }  // namespace
 
+bool has_validation_layer() {
+  std::uint32_t count = 0;
+  vkEnumerateInstanceLayerProperties(&count, nullptr);
+  std::vector<VkLayerProperties> layers(count);
+  vkEnumerateInstanceLayerProperties(&count, layers.data());
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const VkLayerProperties& l) { return std::strcmp(l.layerName, validation_layer) == 0; });
+}
+
+std::string unusable(VkPhysicalDevice device) {
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(device, &properties);
+  const std::string name = std::string("the Vulkan device ") + properties.deviceName;
+  if (properties.apiVersion < VK_API_VERSION_1_1) return name + " is older than version 1.1";
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  const bool computes = std::any_of(families.begin(), families.end(), [](const VkQueueFamilyProperties& f) {
+    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+  });
+  return computes ? "" : name + " has no compute queue";
+}
+
 VulkanInstance::VulkanInstance(bool validation) {
-  std::uint32_t loader = VK_API_VERSION_1_0;
-  vkEnumerateInstanceVersion(&loader);
-  if (loader < VK_API_VERSION_1_1) throw NotSupported("the Vulkan loader is older than version 1.1");
+  open_vulkan_loader();
+  if (volkGetInstanceVersion() < VK_API_VERSION_1_1) throw NotSupported("the Vulkan loader is older than version 1.1");
   if (validation && !has_validation_layer())
     throw NotSupported(std::string("the layer ") + validation_layer +
                        " is not installed (Debian: vulkan-validationlayers); set backend.validation to false");
@@ -84,6 +98,7 @@ VulkanInstance::VulkanInstance(bool validation) {
     throw NotSupported("no Vulkan driver was found (Debian: mesa-vulkan-drivers has drivers and a software GPU)");
   if (made != VK_SUCCESS)
     throw NotSupported("a Vulkan instance cannot be created (VkResult " + std::to_string(made) + ")");
+  volkLoadInstance(instance_);
   if (!validation) return;
   const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
@@ -103,11 +118,17 @@ VulkanInstance::~VulkanInstance() {
   vkDestroyInstance(instance_, nullptr);
 }
 
-VkPhysicalDevice VulkanInstance::choose(const std::string& wanted) const {
+std::vector<VkPhysicalDevice> VulkanInstance::devices() const {
   std::uint32_t count = 0;
   vkEnumeratePhysicalDevices(instance_, &count, nullptr);
   std::vector<VkPhysicalDevice> devices(count);
   vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+  devices.resize(count);
+  return devices;
+}
+
+VkPhysicalDevice VulkanInstance::choose(const std::string& wanted) const {
+  const std::vector<VkPhysicalDevice> devices = this->devices();
   if (devices.empty()) throw NotSupported("the Vulkan drivers offer no device");
   std::vector<std::string> names;
   int best = 0, best_rank = 5;
@@ -118,10 +139,7 @@ VkPhysicalDevice VulkanInstance::choose(const std::string& wanted) const {
     if (rank(properties.deviceType) < best_rank) best = d, best_rank = rank(properties.deviceType);
   }
   const int chosen = wanted.empty() ? best : choose_device("Vulkan", wanted, names);
-  VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(devices[std::size_t(chosen)], &properties);
-  if (properties.apiVersion < VK_API_VERSION_1_1)
-    throw NotSupported("the Vulkan device " + names[std::size_t(chosen)] + " is older than version 1.1");
+  if (const std::string reason = unusable(devices[std::size_t(chosen)]); !reason.empty()) throw NotSupported(reason);
   return devices[std::size_t(chosen)];
 }
 

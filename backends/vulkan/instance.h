@@ -1,10 +1,10 @@
 // The Vulkan instance, its validation messages, and the choice of a device.
 #pragma once
 
-#include <vulkan/vulkan.h>
-
 #include <string>
 #include <vector>
+
+#include "backends/vulkan/loader.h"
 
 namespace dvrlab {
 
@@ -19,6 +19,8 @@ class VulkanInstance {
   /// "" = the first discrete GPU, then integrated, virtual, CPU; else an index, or a part of a name in any case.
   /// Throws NotSupported listing what is there.
   VkPhysicalDevice choose(const std::string& wanted) const;
+  /// All devices, in the order of their indices.
+  std::vector<VkPhysicalDevice> devices() const;
   /// Validation messages since the last call.
   std::vector<std::string> take_messages() { return std::move(messages_); }
 
@@ -27,5 +29,10 @@ class VulkanInstance {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::vector<std::string> messages_;
 };
+
+bool has_validation_layer();
+
+/// "" or why the device cannot be used: too old, no compute queue.
+std::string unusable(VkPhysicalDevice device);
 
 }  // namespace dvrlab

@@ -34,4 +34,12 @@ ShaderLimits shader_limits(VkPhysicalDevice device) {
   return result;
 }
 
+std::uint64_t largest_heap(const VkPhysicalDeviceMemoryProperties& memory) {
+  std::uint64_t bytes = 0;
+  for (std::uint32_t h = 0; h < memory.memoryHeapCount; ++h)
+    if ((memory.memoryHeaps[h].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+      bytes = std::max(bytes, memory.memoryHeaps[h].size);
+  return bytes;
+}
+
 }  // namespace dvrlab

@@ -1,5 +1,6 @@
 // Backend "vulkan": the march as one compute shader. See vulkan.md.
 #include "backends/vulkan/device.h"
+#include "backends/vulkan/report.h"
 #include "framework/shader/gpu_session.h"
 
 namespace dvrlab {
@@ -17,6 +18,7 @@ constexpr Parameter parameters[] = {
 
 class Vulkan final : public BackendPlugin {
  public:
+  BackendReport report() const override { return vulkan_report(); }
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string&) const override {
     return std::make_unique<GpuSession>(std::make_unique<VulkanDevice>(p.text("device"), p.boolean("validation")),
                                         p.number("band_ms") * 1e-3);

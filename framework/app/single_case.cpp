@@ -1,11 +1,45 @@
 #include "framework/app/single_case.h"
 
+#include <filesystem>
+
+#include "framework/app/data_input.h"
+#include "framework/app/starter.h"
+#include "framework/config/views.h"
 #include "framework/interfaces/error.h"
+#include "framework/report/log.h"
 
 namespace dvrlab {
+namespace {
+
+/// The config that is named, or the starter config of the data that is named.
+ConfigDocument document_of(const Options& o, const Registry& registry) {
+  if (!names_data(o.config, registry)) return load_document(o.config, o.set);
+  // Keys of the data section matter for reading it; the others are for the config.
+  std::vector<std::string> set_data;
+  for (const std::string& s : o.set)
+    if (s.starts_with("data.")) set_data.push_back(s);
+  const LoadedData data = load_data(data_document(o.config, set_data, registry), registry);
+  log_line("config", o.config + " is data, so a starter config is made from it: " + starter_words(data));
+  log_line("config", "to write and edit it: dvrlab info " + o.config + " --starter my.json");
+  const std::string folder = std::filesystem::current_path().string();
+  return parse_document(starter_config(data, folder), o.config, folder, o.set);
+}
+
+/// What leaves one case of these: a view of the orbit, no axes, or both.
+std::string how_to_have_one(const Experiment& experiment) {
+  bool views = false, axes = false;
+  for (const PlannedCase& c : experiment.cases) {
+    for (const AxisChoice& choice : c.choices) (choice.key == view_key ? views : axes) = true;
+  }
+  if (!views) return "fix the axes: --set 'axes={}'";
+  return std::string("choose a view of the orbit: --set camera.view=0") +
+         (axes ? ", without axes: --set 'axes={}'" : "");
+}
+
+}  // namespace
 
 PlannedCase single_case(const Options& o, const Registry& registry) {
-  Experiment experiment = plan_experiment(load_document(o.config, o.set), registry);
+  Experiment experiment = plan_experiment(document_of(o, registry), registry);
   PlannedCase* only = nullptr;
   std::size_t count = 0;
   for (PlannedCase& c : experiment.cases) {
@@ -15,7 +49,7 @@ PlannedCase single_case(const Options& o, const Registry& registry) {
   }
   if (count != 1) {
     throw InputError(o.config + ": the config asks for " + std::to_string(count) +
-                     " cases, this verb takes one (use `dvrlab run`, or fix the axes: --set 'axes={}')");
+                     " cases, this verb takes one (use `dvrlab run`, or " + how_to_have_one(experiment) + ")");
   }
   return std::move(*only);
 }

@@ -1,4 +1,4 @@
-// The one case of a config without axes, for the verbs that work on one.
+// The one case of a config without axes, or of a data file, for the verbs that work on one.
 #pragma once
 
 #include "framework/app/verbs.h"

@@ -6,7 +6,9 @@
 namespace dvrlab {
 
 int run_verb(const Options& o) {
-  const RunSummary summary = run_experiment({o.config, o.set, o.plugin_path, o.out});
+  std::vector<std::string> set = o.set;
+  if (o.repeat > 0) set.push_back("repeat=" + std::to_string(o.repeat));
+  const RunSummary summary = run_experiment({o.config, set, o.plugin_path, o.out});
   if (o.json) std::printf("%s\n", summary_json(summary).dump(1).c_str());
   std::fputs(summary_text(summary).c_str(), stderr);
   return exit_code(summary);

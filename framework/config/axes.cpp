@@ -1,144 +1,104 @@
 #include "framework/config/axes.h"
 
-#include <cmath>
-#include <map>
-
 #include "framework/config/check_value.h"
-#include "framework/config/words.h"
+#include "framework/plugin/registry.h"
 
 namespace dvrlab {
 namespace {
 
-constexpr int max_values = 10000;
+class AxesReader {
+ public:
+  AxesReader(const ConfigTree& tree, Problems& problems) : tree_(tree), problems_(problems) {}
 
-std::string plain_label(const ConfigJson& v) {
-  if (v.is_object()) return v.contains("type") && v["type"].is_string() ? v["type"].get<std::string>() : "section";
-  if (v.is_string()) return v.get<std::string>();
-  if (v.is_number_float() && v.get<double>() == std::floor(v.get<double>()) && std::abs(v.get<double>()) < 1e15) {
-    return std::to_string(static_cast<long long>(v.get<double>()));
-  }
-  if (!v.is_array()) return v.dump();
-  if (v.empty()) return "none";
-  std::vector<std::string> labels;
-  for (const ConfigJson& x : v) labels.push_back(plain_label(x));
-  return join_words(labels, "+");
-}
-
-/// Names the other keys too, for sections of one type.
-std::string long_label(const ConfigJson& v) {
-  if (!v.is_object()) return plain_label(v);
-  std::string text = plain_label(v);
-  for (const auto& [key, value] : v.items()) {
-    if (key != "type" && !value.is_structured()) text += "+" + key + "=" + plain_label(value);
-  }
-  return text;
-}
-
-void label_values(std::vector<AxisValue>& values) {
-  std::map<std::string, int> plain, full;
-  for (const AxisValue& v : values) {
-    ++plain[file_safe(plain_label(v.value))];
-    ++full[file_safe(long_label(v.value))];
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    AxisValue& v = values[i];
-    v.label = file_safe(plain_label(v.value));
-    if (plain[v.label] > 1) v.label = file_safe(long_label(v.value));
-    if (full[v.label] > 1) v.label.append("+").append(std::to_string(i));
-  }
-}
-
-bool range_numbers(const ConfigJson& range, std::size_t count) {
-  if (!range.is_array() || range.size() != count) return false;
-  for (const ConfigJson& x : range) {
-    if (!x.is_number()) return false;
-  }
-  return true;
-}
-
-/// The numbers of {"lin" | "log2" | "log10": [...]}; empty when it is none of these.
-std::vector<double> range_values(const ConfigJson& v) {
-  std::vector<double> values;
-  if (!v.is_object() || v.size() != 1) return values;
-  const std::string how = v.begin().key();
-  const ConfigJson& range = v.begin().value();
-  if (how == "lin" && range_numbers(range, 3)) {
-    const double a = range[0].get<double>(), b = range[1].get<double>(), n = range[2].get<double>();
-    if (n < 2 || n > max_values || n != std::floor(n)) return values;
-    for (int i = 0; i < static_cast<int>(n); ++i) values.push_back(a + (b - a) * i / (n - 1));
-  } else if ((how == "log2" || how == "log10") && range_numbers(range, 2)) {
-    const double base = how == "log2" ? 2 : 10, a = range[0].get<double>(), b = range[1].get<double>();
-    if (!(a > 0) || !(b > 0)) return values;
-    const double factor = b < a ? 1 / base : base;
-    // The last value belongs to the range when it is met up to rounding.
-    const int count = static_cast<int>(std::floor(std::abs(std::log(b / a)) / std::log(base) + 1e-9)) + 1;
-    for (int i = 0; i < std::min(count, max_values); ++i) values.push_back(a * std::pow(factor, i));
-  }
-  return values;
-}
-
-Axis read_axis(const ConfigTree& tree, const std::string& path, const std::string& key, const ConfigJson& written,
-               Problems& problems) {
-  Axis axis;
-  axis.key = key;
-  if (written.is_array()) {
-    for (std::size_t i = 0; i < written.size(); ++i) axis.values.push_back({written[i], "", child_path(path, i)});
-  } else {
-    for (const double x : range_values(written))
-      axis.values.push_back({ConfigJson(x), "", child_path(path, axis.values.size())});
-  }
-  if (axis.values.empty()) {
-    problems.add(
-        tree.where(path) + ": found " + short_text(written) +
-        R"(; must be a list of values that is not empty, {"lin": [first, last, count]}, {"log2": [first, last]} or {"log10": [first, last]})");
-  }
-  label_values(axis.values);
-  return axis;
-}
-
-}  // namespace
-
-std::string file_safe(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                      std::string("._=,+-").find(c) != std::string::npos;
-    safe += good ? c : '_';
-  }
-  if (safe.empty() || safe.front() == '.' || safe.front() == '-') safe.insert(0, 1, '_');
-  return safe;
-}
-
-std::vector<Axis> read_axes(const ConfigTree& tree, Problems& problems) {
-  std::vector<Axis> axes;
-  const ConfigJson* section = tree.find("axes");
-  if (section == nullptr) return axes;
-  if (!section->is_object()) {
-    problems.add(tree.where("axes") + ": found " + short_text(*section) +
-                 "; must be a section with permutation and variant");
-    return axes;
-  }
-  for (const auto& [role, list] : section->items()) {
-    if (role != "permutation" && role != "variant") {
-      problems.add(tree.where_key("axes." + role) + ": unknown key '" + role + "'; legal: permutation, variant");
-    } else if (!list.is_object()) {
-      problems.add(tree.where("axes." + role) + ": found " + short_text(list) +
-                   "; must be a section of key path -> values");
-    }
-  }
-  for (const char* role : {"permutation", "variant"}) {
-    if (!section->contains(role) || !(*section)[role].is_object()) continue;
-    for (const auto& [key, written] : (*section)[role].items()) {
-      axes.push_back(read_axis(tree, child_path(child_path("axes", role), key), key, written, problems));
-      axes.back().variant = role == std::string("variant");
-      for (std::size_t i = 0; i + 1 < axes.size(); ++i) {
-        if (axes[i].key == key)
-          problems.add(tree.where(child_path(child_path("axes", role), key)) +
-                       ": the key is an axis twice (a key is a permutation or a variant)");
+  void read_role(const std::string& role, const ConfigJson& section) {
+    variant_ = role == "variant";
+    const std::string path = child_path("axes", role);
+    for (const auto& [key, written] : section.items()) {
+      if (key == "zip") {
+        read_zips(child_path(path, key), written);
+      } else {
+        axes_.push_back({variant_, {}});
+        add_key(child_path(path, key), key, written);
       }
     }
   }
-  return axes;
+
+  std::vector<Axis> take() { return std::move(axes_); }
+
+ private:
+  void bad(const std::string& path, const std::string& what) { problems_.add(tree_.where(path) + ": " + what); }
+
+  /// A further key of the last axis.
+  void add_key(const std::string& path, const std::string& key, const ConfigJson& written) {
+    for (const Axis& axis : axes_) {
+      for (const AxisKey& known : axis.keys) {
+        if (known.key == key) bad(path, "the key is an axis twice (a key is a permutation or a variant, in one place)");
+      }
+    }
+    axes_.back().keys.push_back({key, axis_values(tree_, path, written, problems_)});
+  }
+
+  void read_zips(const std::string& path, const ConfigJson& list) {
+    const char* right =
+        R"(; must be a list of sections of key path -> values, e.g. [{"seed": [1, 2], "repeat": [5, 3]}])";
+    if (!list.is_array() || list.empty()) return bad(path, "found " + short_text(list) + right);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::string here = child_path(path, i);
+      if (list[i].is_object() && !list[i].empty()) {
+        read_zip(here, list[i]);
+      } else {
+        bad(here, "found " + short_text(list[i]) + right);
+      }
+    }
+  }
+
+  void read_zip(const std::string& path, const ConfigJson& section) {
+    axes_.push_back({variant_, {}});
+    for (const auto& [key, written] : section.items()) {
+      add_key(child_path(path, key), key, written);
+      const AxisKey &first = axes_.back().keys.front(), &last = axes_.back().keys.back();
+      if (first.values.empty() || last.values.empty() || first.values.size() == last.values.size()) continue;
+      bad(child_path(path, key), "found " + std::to_string(last.values.size()) + " values; must be " +
+                                     std::to_string(first.values.size()) + ", as many as those of '" + first.key +
+                                     "': the keys of a zip vary together");
+    }
+  }
+
+  const ConfigTree& tree_;
+  Problems& problems_;
+  bool variant_ = false;
+  std::vector<Axis> axes_;
+};
+
+}  // namespace
+
+bool decided_by(const std::string& key, const std::string& above) {
+  return key.compare(0, above.size(), above) == 0 &&
+         (key.size() == above.size() || key[above.size()] == '.' || key[above.size()] == '[');
+}
+
+std::vector<Axis> read_axes(const ConfigTree& tree, Problems& problems) {
+  const ConfigJson* section = tree.find("axes");
+  if (section == nullptr) return {};
+  if (!section->is_object()) {
+    problems.add(tree.where("axes") + ": found " + short_text(*section) +
+                 "; must be a section with permutation and variant");
+    return {};
+  }
+  for (const auto& [role, keys] : section->items()) {
+    if (role != "permutation" && role != "variant") {
+      problems.add(tree.where_key("axes." + role) + ": unknown key '" + role + "'" +
+                   did_you_mean(role, {"permutation", "variant"}) + "; legal: permutation, variant");
+    } else if (!keys.is_object()) {
+      problems.add(tree.where("axes." + role) + ": found " + short_text(keys) +
+                   "; must be a section of key path -> values");
+    }
+  }
+  AxesReader reader(tree, problems);
+  for (const char* role : {"permutation", "variant"}) {
+    if (section->contains(role) && (*section)[role].is_object()) reader.read_role(role, (*section)[role]);
+  }
+  return reader.take();
 }
 
 }  // namespace dvrlab

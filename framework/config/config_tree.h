@@ -29,6 +29,8 @@ class ConfigTree {
   ConfigJson root = ConfigJson::object();
 
   void set_place(const std::string& path, Place place) { places_[path] = std::move(place); }
+  /// Forgets where the key and everything below it was written.
+  void erase_places(const std::string& path);
   /// "file:3:5: estimator.step" for messages; a key that was not written has the place of the section that lacks it.
   std::string where(const std::string& path) const;
   /// The same for a mistake in the key itself: an axis key is one key, however many values it has.
@@ -52,7 +54,6 @@ class ConfigTree {
 
  private:
   const Place* nearest(std::string path) const;
-  void erase_places(const std::string& path);
   std::map<std::string, Place> places_;
   std::map<std::string, Place> key_places_;  // where the value is one of several that were written below the key
 };

@@ -5,7 +5,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "framework/config/environment.h"
 #include "framework/config/json_reader.h"
+#include "framework/config/override.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
 
@@ -46,7 +48,7 @@ class Loader {
     }
     problems_.raise();
     ConfigTree tree;
-    for (const std::string& name : included(written)) include(tree, name, folder, written.where("include"));
+    for (const auto& [name, where] : included(written)) include(tree, name, folder, where);
     written.root.erase("include");
     written.root.erase("$schema");  // for editors (docs/editor.md)
     tree.merge(written, "", written.root);
@@ -54,14 +56,16 @@ class Loader {
   }
 
  private:
-  std::vector<std::string> included(const ConfigTree& tree) {
+  /// Names of files, and where they were written.
+  static std::vector<std::pair<std::string, std::string>> included(const ConfigTree& tree) {
     const ConfigJson* include = tree.find("include");
     if (include == nullptr) return {};
     const ConfigJson list = include->is_array() ? *include : ConfigJson::array({*include});
-    std::vector<std::string> names;
-    for (const ConfigJson& name : list) {
-      if (!name.is_string()) throw InputError(tree.where("include") + ": must be a file's name or a list of them");
-      names.push_back(name.get<std::string>());
+    std::vector<std::pair<std::string, std::string>> names;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::string where = tree.where(include->is_array() ? child_path("include", i) : "include");
+      if (!list[i].is_string()) throw InputError(where + ": must be a file's name or a list of them");
+      names.emplace_back(expand_environment(list[i].get<std::string>(), where), where);
     }
     return names;
   }
@@ -83,37 +87,6 @@ class Loader {
   std::vector<std::string> open_;  // the files that are being read, outermost first
 };
 
-/// True if `key` is `above` or lies below it.
-bool decided_by(const std::string& key, const std::string& above) {
-  return key.compare(0, above.size(), above) == 0 &&
-         (key.size() == above.size() || key[above.size()] == '.' || key[above.size()] == '[');
-}
-
-void override_key(ConfigTree& tree, const std::string& assignment) {
-  const std::size_t equal = assignment.find('=');
-  const std::string place = "--set " + assignment;
-  if (equal == std::string::npos || equal == 0) throw InputError(place + ": must be key.path=value");
-  const std::string key = assignment.substr(0, equal), text = assignment.substr(equal + 1);
-  ConfigTree given;
-  given.root = ConfigJson::parse(text, nullptr, false);
-  if (given.root.is_discarded()) given.root = text;
-  given.set_place("", {"--set", 0, 0, key});
-  for (const char* role : {"permutation", "variant"}) {
-    const std::string axes = std::string("axes.") + role + ".";
-    if (key.compare(0, axes.size(), axes) == 0) {  // an axis key is a path itself: one key, not sections
-      tree.root["axes"][role][key.substr(axes.size())] = given.root;
-      tree.set_place(key, {"--set", 0, 0, key});
-      return;
-    }
-    if (!tree.root.contains("axes") || !tree.root["axes"].is_object() || !tree.root["axes"].contains(role)) continue;
-    for (const auto& [axis, values] : tree.root["axes"][role].items()) {
-      if (decided_by(key, axis))
-        throw InputError(place + ": the axis " + axes + axis + " decides this key; set that, to one value in a list");
-    }
-  }
-  tree.graft(key, given.root, given, "");
-}
-
 }  // namespace
 
 ConfigDocument parse_document(const std::string& text, const std::string& file, const std::string& base_folder,
@@ -127,8 +100,8 @@ ConfigDocument parse_document(const std::string& text, const std::string& file, 
     const ConfigJson* value = document.tree.find(key);
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
   };
-  document.base_folder =
-      fs::weakly_canonical(fs::absolute(base_folder.empty() ? "." : base_folder) / text_at("base_folder")).string();
+  const std::string moved = expand_environment(text_at("base_folder"), document.tree.where("base_folder"));
+  document.base_folder = fs::weakly_canonical(fs::absolute(base_folder.empty() ? "." : base_folder) / moved).string();
   document.name = text_at("name").empty() ? fs::path(file).stem().string() : text_at("name");
   return document;
 }

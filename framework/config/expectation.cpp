@@ -19,6 +19,8 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
   e.metric = p.text("metric");
   e.against = p.text("against");
   for (const auto& [key, value] : p.json("where").items()) e.where.emplace_back(key, value);
+  if (p.text("over") == "views") e.over = Expectation::Over::views;
+  if (p.text("take") == "mean") e.take = Expectation::Take::mean;
   std::string bound;
   int bounds = 0;
   if (!p.is_null("at_least")) {
@@ -48,6 +50,7 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
                  " bounds; must be exactly one of at_least, at_most, between, order");
   }
   e.text = e.metric + " against " + e.against + bound;
+  if (e.over == Expectation::Over::views) e.text = p.text("take") + " over views of " + e.text;
   return e;
 }
 

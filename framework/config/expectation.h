@@ -16,8 +16,10 @@ struct Expectation {
   std::string metric;                                         // "psnr", "psnr.r"
   std::string against;                                        // a reference's name, or "variant"
   std::vector<std::pair<std::string, nlohmann::json>> where;  // key path -> value that a case must have
-  std::optional<double> at_least, at_most;                    // `between` sets both
-  std::string order_by;                                       // key path; "" when there is no order
+  enum class Over { cases, views } over = Over::cases;  // views: one value of all views that differ in nothing else
+  enum class Take { worst, mean } take = Take::worst;   // of the views
+  std::optional<double> at_least, at_most;              // `between` sets both
+  std::string order_by;                                 // key path; "" when there is no order
   bool increasing = false;
   std::string text;  // "psnr against truth >= 40": for messages and result files
 };

@@ -5,8 +5,10 @@
 #include <set>
 
 #include "framework/config/axes.h"
+#include "framework/config/case_trees.h"
 #include "framework/config/problems.h"
 #include "framework/config/resolve.h"
+#include "framework/config/views.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
@@ -18,74 +20,121 @@ namespace {
 constexpr std::size_t max_cases = 100000;
 constexpr std::size_t max_id = 160;  // letters; file systems allow 255 bytes
 
-/// Every key path that a patch decides: a section that names its type is decided as a whole.
-void decided_paths(const std::string& path, const ConfigJson& value, std::vector<std::string>& paths) {
-  if (value.is_object() && !value.contains("type") && !value.empty()) {
-    for (const auto& [key, inner] : value.items()) decided_paths(child_path(path, key), inner, paths);
-  } else {
-    paths.push_back(path);
-  }
-}
-
 bool decides(const std::vector<std::string>& paths, const std::string& key) {
-  return std::any_of(paths.begin(), paths.end(), [&](const std::string& p) {
-    return key.compare(0, p.size(), p) == 0 && (key.size() == p.size() || key[p.size()] == '.' || key[p.size()] == '[');
-  });
+  return std::any_of(paths.begin(), paths.end(), [&](const std::string& p) { return decided_by(key, p); });
 }
 
 class Planner {
  public:
   Planner(const ConfigDocument& document, const Registry& registry)
-      : document_(document), registry_(registry), base_(document.tree) {
-    for (const char* key : {"axes", "reference", "expect"}) base_.root.erase(key);
-  }
+      : document_(document), registry_(registry), trees_(document.tree, axes_) {}
 
   Experiment plan() {
     experiment_.name = document_.name;
     axes_ = read_axes(document_.tree, problems_);
-    check_references();
+    check_references(document_.tree, problems_);
     experiment_.expectations = read_expectations(document_.tree, problems_);
     problems_.raise();
-    std::size_t permutations = 1, variants = 1;
-    for (const Axis& a : axes_) (a.variant ? variants : permutations) *= std::min(a.values.size(), max_cases);
-    if (permutations > max_cases || variants > max_cases || permutations * variants > max_cases) {
-      throw InputError(document_.tree.where("axes") + ": more than " + std::to_string(max_cases) +
-                       " cases (take values away, or split the experiment)");
-    }
-    for (std::size_t p = 0; p < permutations; ++p) plan_permutation(p, variants);
+    if (may_orbit(trees_.base(), axes_)) outer_ = order_around_views(axes_);
+    plan_cases();
     problems_.raise();
     return std::move(experiment_);
   }
 
  private:
-  using Choice = std::vector<std::size_t>;  // an index of a value for every axis
-
-  /// The axes of one role as digits of `number`, the first axis outermost.
-  void choose(Choice& choice, bool variant, std::size_t number) const {
-    for (std::size_t a = axes_.size(); a-- > 0;) {
-      if (axes_[a].variant != variant) continue;
-      choice[a] = number % axes_[a].values.size();
-      number /= axes_[a].values.size();
+  void plan_cases() {
+    std::size_t outer = 1, inner = 1, variants = 1;
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+      std::size_t& product = axes_[a].variant ? variants : a < outer_ ? outer : inner;
+      product *= axes_[a].count();
+      if (product > max_cases) too_many();
+    }
+    if (outer * inner > max_cases || outer * inner * variants > max_cases) too_many();
+    Choice choice{std::vector<std::size_t>(axes_.size(), 0), {}};
+    std::vector<std::size_t> views;  // for every choice on the outer axes
+    for (std::size_t o = 0; o < outer; ++o) {
+      choose(choice, 0, outer_, false, o);
+      views.push_back(views_of(choice));
+    }
+    std::size_t images = 0;
+    for (const std::size_t n : views) images += std::max<std::size_t>(n, 1);
+    if (images * inner * variants > max_cases) too_many();
+    for (std::size_t o = 0; o < outer; ++o) {
+      choose(choice, 0, outer_, false, o);
+      for (std::size_t v = 0; v < std::max<std::size_t>(views[o], 1); ++v) {
+        if (views[o] > 0) choice.view = v;
+        views_ = views[o];
+        for (std::size_t i = 0; i < inner; ++i) {
+          choose(choice, outer_, axes_.size(), false, i);
+          plan_permutation(choice, variants);
+        }
+      }
+      choice.view.reset();
     }
   }
 
-  void plan_permutation(std::size_t permutation, std::size_t variants) {
-    Choice choice(axes_.size(), 0);
-    choose(choice, false, permutation);
+  [[noreturn]] void too_many() const {
+    throw InputError(document_.tree.where("axes") + ": more than " + std::to_string(max_cases) +
+                     " cases (take values or views away, or split the experiment)");
+  }
+
+  /// The axes of one role from `begin` to `end` as digits of `number`, the first axis outermost.
+  void choose(Choice& choice, std::size_t begin, std::size_t end, bool variant, std::size_t number) const {
+    for (std::size_t a = end; a-- > begin;) {
+      if (axes_[a].variant != variant) continue;
+      choice.value[a] = number % axes_[a].count();
+      number /= axes_[a].count();
+    }
+  }
+
+  std::size_t views_of(const Choice& choice) {
+    const std::size_t views = asked_views(trees_.of_case(choice, problems_));
+    if (views == 0) return 0;
+    for (std::size_t a = 0; a < outer_; ++a) {
+      for (const AxisKey& k : axes_[a].keys) {
+        if (k.key != view_key) continue;
+        problems_.add(document_.tree.where(k.values[choice.value[a]].source) +
+                      ": null stands for all views, here and in the axis itself; give the index of a view");
+        return 0;
+      }
+    }
+    return views;
+  }
+
+  struct ChosenKey {
+    AxisChoice choice;
+    bool variant;
+  };
+
+  /// What the choice says of every key, in running order.
+  std::vector<ChosenKey> chosen(const Choice& choice) const {
+    std::vector<ChosenKey> keys;
+    for (std::size_t a = 0; a <= axes_.size(); ++a) {
+      if (a == outer_ && choice.view)
+        keys.push_back({{view_key, view_label(*choice.view, views_), axes_.size()}, false});
+      if (a == axes_.size()) break;
+      for (const AxisKey& k : axes_[a].keys)
+        keys.push_back({{k.key, k.values[choice.value[a]].label, a}, axes_[a].variant});
+    }
+    return keys;
+  }
+
+  void plan_permutation(Choice& choice, std::size_t variants) {
+    choose(choice, 0, axes_.size(), true, 0);
     const auto references = plan_references(choice);
     const std::size_t first = experiment_.cases.size();
     for (std::size_t v = 0; v < variants; ++v) {
-      choose(choice, true, v);
+      choose(choice, 0, axes_.size(), true, v);
       PlannedCase c;
       std::vector<std::string> words;
-      for (std::size_t a = 0; a < axes_.size(); ++a) {
-        c.choices.push_back({axes_[a].key, axes_[a].values[choice[a]].label});
-        words.push_back(axes_[a].key + "=" + c.choices.back().label);
+      for (ChosenKey& k : chosen(choice)) {
+        words.push_back(k.choice.key + "=" + k.choice.label);
+        c.choices.push_back(std::move(k.choice));
       }
       c.id = unique_id(words.empty() ? "case" : join_words(words, ","));
       c.first_variant = first;
       c.references = references;
-      resolve(tree_of(choice), c, axes_.empty() ? document_.name : document_.name + "." + c.id);
+      resolve(trees_.of_case(choice, problems_), c, words.empty() ? document_.name : document_.name + "." + c.id);
       experiment_.cases.push_back(std::move(c));
     }
   }
@@ -95,15 +144,14 @@ class Planner {
     const ConfigJson* references = document_.tree.find("reference");
     if (references == nullptr) return found;
     for (const auto& [name, patch] : references->items()) {
-      std::vector<std::string> decided;
-      for (const auto& [key, value] : patch.items()) decided_paths(key, value, decided);
+      const std::vector<std::string> decided = trees_.decided_by_reference(name);
       PlannedCase c;
       c.reference_name = name;
       std::vector<std::string> words = {"reference=" + name};
-      for (std::size_t a = 0; a < axes_.size(); ++a) {
-        if (decides(decided, axes_[a].key)) continue;
-        c.choices.push_back({axes_[a].key, axes_[a].values[choice[a]].label});
-        if (!axes_[a].variant) words.push_back(axes_[a].key + "=" + c.choices.back().label);
+      for (ChosenKey& k : chosen(choice)) {
+        if (decides(decided, k.choice.key)) continue;
+        if (!k.variant) words.push_back(k.choice.key + "=" + k.choice.label);
+        c.choices.push_back(std::move(k.choice));
       }
       // Permutations that differ only in what the patch decides share one reference.
       const std::string key = join_words(words, ",");
@@ -112,7 +160,7 @@ class Planner {
         known = references_.emplace(key, experiment_.cases.size()).first;
         c.id = unique_id(key);
         c.first_variant = experiment_.cases.size();
-        resolve(reference_tree(choice, name, patch, decided), c, document_.name + "." + c.id);
+        resolve(trees_.of_reference(choice, name, problems_), c, document_.name + "." + c.id);
         experiment_.cases.push_back(std::move(c));
       }
       found.emplace_back(name, known->second);
@@ -120,71 +168,25 @@ class Planner {
     return found;
   }
 
-  ConfigTree tree_of(const Choice& choice) {
-    ConfigTree tree = base_;
-    std::vector<std::size_t> order(axes_.size());
-    for (std::size_t a = 0; a < order.size(); ++a) order[a] = a;
-    // A whole section before the keys in it.
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return split_path(axes_[a].key).size() < split_path(axes_[b].key).size();
-    });
-    for (const std::size_t a : order) {
-      const AxisValue& v = axes_[a].values[choice[a]];
-      try {
-        tree.graft(axes_[a].key, v.value, document_.tree, v.source);
-      } catch (const InputError& e) {
-        problems_.add(e.what());
-      }
-    }
-    return tree;
-  }
-
-  ConfigTree reference_tree(const Choice& choice, const std::string& name, const ConfigJson& patch,
-                            const std::vector<std::string>& decided) {
-    const std::string source = child_path("reference", name);
-    ConfigTree tree = tree_of(choice);
-    tree.merge(document_.tree, source, patch);
-    const ConfigJson* type = tree.find("sampling.type");
-    const SectionType* sampling =
-        find_section_type("sampling", type != nullptr && type->is_string() ? type->get<std::string>() : "uniform");
-    const bool terminates =
-        sampling != nullptr && std::any_of(sampling->keys.begin(), sampling->keys.end(),
-                                           [](const Parameter& p) { return p.name == std::string("termination"); });
-    // A reference runs every ray to its end unless it says otherwise.
-    if (terminates && std::find(decided.begin(), decided.end(), "sampling.termination") == decided.end() &&
-        !(patch.contains("sampling") && patch["sampling"].is_object() && patch["sampling"].contains("termination"))) {
-      tree.graft("sampling.termination", 0, document_.tree, source);
-    }
-    return tree;
-  }
-
-  void check_references() {
-    const ConfigJson* references = document_.tree.find("reference");
-    if (references == nullptr) return;
-    const auto bad = [&](const std::string& path, const char* what) {
-      problems_.add(document_.tree.where(path) + ": " + what);
-    };
-    if (!references->is_object()) return bad("reference", "must be a section of name -> patch");
-    for (const auto& [name, patch] : references->items()) {
-      const std::string path = child_path("reference", name);
-      if (name == "variant" || name.empty() || name != file_safe(name))
-        bad(path, "is no name for a reference; letters, digits and _ are, except 'variant'");
-      if (!patch.is_object()) {
-        bad(path, "must be a section: a patch on the case");
-        continue;
-      }
-      for (const char* key : {"name", "schema", "base_folder", "include", "axes", "reference", "metrics", "expect"}) {
-        if (patch.contains(key)) bad(child_path(path, key), "a reference cannot change this key");
-      }
-    }
-  }
-
   void resolve(const ConfigTree& tree, PlannedCase& c, const std::string& name) {
     Problems problems;
+    refuse_open_views(tree, c, problems);
     c.resolved = resolve_case(tree, document_.base_folder, registry_, problems);
     c.resolved.config["name"] = name;
     if (problems.empty()) check(tree, c.resolved, problems);
     problems_.add(problems);
+  }
+
+  /// A case is one image: no orbit is left whose view is null.
+  static void refuse_open_views(const ConfigTree& tree, const PlannedCase& c, Problems& problems) {
+    const std::size_t views = asked_views(tree);
+    if (views == 0) return;
+    problems.add(tree.where("camera") + ": " +
+                 (c.reference_name.empty() ? "the values of a variant axis show one image"
+                                           : "the reference '" + c.reference_name + "' is one image") +
+                 ", this orbit has " + std::to_string(views) +
+                 (c.reference_name.empty() ? "; give the index of a view"
+                                           : "; give the index of a view, or change single keys of the camera"));
   }
 
   void check(const ConfigTree& tree, const ResolvedCase& c, Problems& problems) const {
@@ -221,8 +223,10 @@ class Planner {
 
   const ConfigDocument& document_;
   const Registry& registry_;
-  ConfigTree base_;
   std::vector<Axis> axes_;
+  std::size_t outer_ = 0;  // the first axes, which run outside the views of an orbit
+  std::size_t views_ = 0;  // of the orbit that is being planned
+  CaseTrees trees_;
   Problems problems_;
   Experiment experiment_;
   std::map<std::string, std::size_t> references_;

@@ -12,14 +12,16 @@
 
 namespace dvrlab {
 
+/// The value of a key that an axis varies.
 struct AxisChoice {
   std::string key, label;
+  std::size_t axis = 0;  // keys with the same number vary together
 };
 
 struct PlannedCase {
   std::string id;                   // readable, unique, the name of its folder
   std::string reference_name;       // "" for an ordinary case
-  std::vector<AxisChoice> choices;  // its value on every axis
+  std::vector<AxisChoice> choices;  // its value of every key of every axis, in running order
   ResolvedCase resolved;
   std::size_t first_variant = 0;  // index of the case that it must equal bit for bit; its own for the first
   std::vector<std::pair<std::string, std::size_t>> references;  // name -> index of the case
@@ -32,7 +34,8 @@ struct Experiment {
   std::vector<Expectation> expectations;
 };
 
-/// The full product of the axes, permutations outermost, and the references that it needs. A reference is the case's
+/// The full product of the axes, permutations outermost, and the references that it needs. An orbit camera whose view
+/// is null adds the permutation axis camera.view. A reference is the case's
 /// permutation with the first value of every variant axis, `termination` 0 and then its patch. Throws InputError
 /// with everything that is wrong with any case, one line each.
 Experiment plan_experiment(const ConfigDocument& document, const Registry& registry);

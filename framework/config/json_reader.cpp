@@ -69,7 +69,8 @@ class TreeBuilder : public nlohmann::json_sax<ConfigJson> {
   }
 
   bool parse_error(std::size_t position, const std::string& last, const nlohmann::detail::exception& e) override {
-    token_ = begin_ + (position == 0 ? 0 : std::min(position, static_cast<std::size_t>(end_ - begin_)) - 1);
+    const std::size_t read = std::min(position, static_cast<std::size_t>(end_ - begin_));
+    token_ = begin_ + (read == 0 ? 0 : read - 1);
     const std::string what = e.what();
     const std::size_t reason = what.find(": ");
     problems_.add(text_of(place_of(token_)) + "not valid JSON" +

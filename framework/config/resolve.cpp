@@ -74,6 +74,11 @@ class CaseResolver {
     return c;
   }
 
+  Section data() {
+    nlohmann::json resolved;
+    return plugin_section("data", "data", "", true, resolved);
+  }
+
  private:
   static Declaration framework_declaration(const std::string& section, const std::string& type) {
     const SectionType* s = find_section_type(section, type);
@@ -136,9 +141,7 @@ class CaseResolver {
   /// What the plugin itself has to say of its values.
   void check(const std::string& kind, const Section& s) {
     try {
-      registry_.get<Plugin>(kind, s.type).check(s.parameters);
-    } catch (const InputError& e) {
-      problems_.add(tree_.located(e.what()));
+      located([&] { registry_.get<Plugin>(kind, s.type).check(s.parameters); });
     } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of its cases, not a wrong config
     }
   }
@@ -152,8 +155,22 @@ class CaseResolver {
       problems_.add(tree_.where(path + ".type") + ": " + unknown_word("type", s.type, types_of(section)));
       return s;
     }
+    const std::size_t before = problems_.lines().size();
     finish(path, framework_declaration(section, s.type), s, out);
+    const auto check_keys = find_section_type(section, s.type)->check;
+    if (check_keys != nullptr && problems_.lines().size() == before) {
+      located([&] { check_keys(s.parameters); });
+    }
     return s;
+  }
+
+  template <class Check>
+  void located(Check check) {
+    try {
+      check();
+    } catch (const InputError& e) {
+      problems_.add(tree_.located(e.what()));
+    }
   }
 
   void finish(const std::string& path, Declaration declaration, Section& s, nlohmann::json& out) {
@@ -230,6 +247,10 @@ ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const
     resolved.erase(p.name);  // what decides nothing is not part of the case
   }
   return set;
+}
+
+Section resolve_data(const ConfigTree& tree, const Registry& registry, Problems& problems) {
+  return CaseResolver(tree, registry, problems).data();
 }
 
 ResolvedCase resolve_case(const ConfigTree& tree, const std::string& base_folder, const Registry& registry,

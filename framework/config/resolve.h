@@ -22,6 +22,9 @@ struct Declaration {
 ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const Declaration& declaration,
                           Problems& problems, nlohmann::json& resolved);
 
+/// The `data` section alone, for those who only want the data. Everything wrong is added to `problems`.
+Section resolve_data(const ConfigTree& tree, const Registry& registry, Problems& problems);
+
 /// One case: the tree without the experiment's own sections (include, axes, reference, expect), which are ignored.
 /// Everything wrong is added to `problems`; the case may be used only when nothing was.
 ResolvedCase resolve_case(const ConfigTree& tree, const std::string& base_folder, const Registry& registry,

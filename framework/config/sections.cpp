@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/config/check_value.h"
+#include "framework/interfaces/error.h"
 
 namespace dvrlab {
 namespace {
@@ -40,6 +41,15 @@ bool order(const Value& v) {
          (v["is"] == "increasing" || v["is"] == "decreasing");
 }
 
+bool tf_domain_range(const Value& v) { return v == "data" || v == "type" || (null_or_range(v) && !v.is_null()); }
+bool view(const Value& v) { return v.is_null() || (v.is_number_integer() && v.get<double>() >= 0); }
+
+void check_orbit(const ParameterSet& p) {
+  if (p.is_null("view") || p.json("view").get<long long>() < p.integer("views")) return;
+  throw InputError(p.path_of("view") + ": found " + p.json("view").dump() + "; the orbit has views 0 to " +
+                   std::to_string(p.integer("views") - 1) + ", and null stands for all of them");
+}
+
 constexpr Affects pixels = Affects::pixels, speed = Affects::speed, nothing = Affects::nothing;
 
 const Parameter camera_frame{
@@ -58,11 +68,16 @@ const Parameter world_frame{
     "world|data", "Coordinates: world, or the data's box (origin at its centre, unit = half its diagonal).",
     pixels,       "",
     "\"data\""};
-// The two frames differ in origin and unit only: a direction is the same in both.
-const Parameter direction_frame{
-    "frame",     choice,       "",
-    "\"world\"", "world|data", "Coordinates of the direction; world and the data's box have the same axes.",
-    nothing};
+const Parameter light_frame{"frame",
+                            choice,
+                            "",
+                            "\"world\"",
+                            "world|data|camera",
+                            "Coordinates: world, the data's box, or the camera's (x right, y up, z towards the eye, "
+                            "origin at the eye, unit as the camera's frame).",
+                            pixels,
+                            R"({"camera":{"position":[1.2,-2.0,0.9]}})",
+                            "\"camera\""};
 const Parameter light_color{"color", vector3, "",           "[1,1,1]", "[0,inf)", "Colour of the light.",
                             pixels,  "",      "[0.3,0.6,1]"};
 const Parameter camera_position{"position", vector3, "frame units", nullptr, "", "Where the camera stands.",
@@ -111,26 +126,37 @@ std::vector<SectionType> declare() {
          "\"nodes\""},
         {"tf_entries", integer, "", "4096", "[2,65536]", "Number of entries of the table.", pixels, "", "64"},
         {"tf_range", json, "physical value", "null", "null (the data's stored range) or [lo, hi] with lo < hi",
-         "Values that the table spans.", pixels, "", "[0.1,0.6]", "",
+         "Values that the table spans: physical, whatever tf_domain is.", pixels, "", "[0.1,0.6]", "",
          R"({"type":["array","null"],"minItems":2,"maxItems":2,"items":{"type":"number"}})"},
+        {"tf_domain", choice, "", "\"physical\"", "physical|normalized|quantized",
+         "Unit of the model's values: physical, 0 to 1, or 0 to 2^tf_bits - 1 over tf_domain_range.", pixels, "",
+         "\"normalized\""},
+        {"tf_bits", integer, "bit", "8", "[1,16]", "Bits of quantized transfer function values.", pixels,
+         R"({"optical_model":{"tf_domain":"quantized"}})", "4", "tf_domain=quantized"},
+        {"tf_domain_range", json, "physical value", "\"data\"",
+         "\"data\" (smallest and largest value of the data), \"type\" (of its integer voxel type) or [lo, hi] with "
+         "lo < hi",
+         "Physical values that normalized and quantized transfer functions are spread over.", pixels,
+         R"({"optical_model":{"tf_domain":"normalized"}})", "[0,2]", "tf_domain=normalized|quantized",
+         R"({"anyOf":[{"enum":["data","type"]},{"type":"array","minItems":2,"maxItems":2,"items":{"type":"number"}}]})"},
         {"interpolation", choice, "", "\"extinction\"", "extinction|opacity",
          "What is linear between transfer function nodes.", pixels, "", "\"opacity\""},
         {"opaque", choice, "", "\"cap\"", "cap", "What a fully opaque node becomes: a capped extinction, said aloud.",
          pixels},
         {"length_unit", choice, "", "\"world\"", "world|voxel",
          "Unit of the model's lengths and extinctions; voxel: the smallest spacing.", pixels, "", "\"voxel\""}},
-       {{"tf_range", null_or_range}}},
+       {{"tf_range", null_or_range}, {"tf_domain_range", tf_domain_range}}},
       {"lights", "head", "A light at the eye: it shines along each ray.", {light_color}},
       {"lights",
        "directional",
        "A light that is infinitely far away.",
-       {direction_frame,
+       {light_frame,
         {"direction", vector3, "", nullptr, "", "Direction towards the light.", pixels, "", "[0,1,0]"},
         light_color}},
       {"lights",
        "point",
        "A light at a point, without falloff.",
-       {world_frame,
+       {light_frame,
         {"position", vector3, "frame units", nullptr, "", "Where the light is.", pixels, "", "[0,2,3]"},
         light_color}},
       {"camera",
@@ -150,6 +176,34 @@ std::vector<SectionType> declare() {
         camera_up,
         {"height", number, "frame units", "2", "(0,inf)",
          "Height of the image; 2 in the data frame holds the whole box.", pixels, "", "1"}}},
+      {"camera",
+       "orbit",
+       "Views from a circle or a sphere around a target; each view is a case of its own.",
+       {camera_frame,
+        camera_target,
+        {"path", choice, "", "\"circle\"", "circle|sphere",
+         "Circle: equal angles about the axis; sphere: directions spread evenly (Fibonacci lattice).", pixels, "",
+         "\"sphere\""},
+        {"axis", vector3, "", "[0,0,1]", "", "Axis of the orbit, up in the image; any length but 0.", pixels, "",
+         "[0,1,1]"},
+        {"distance", number, "frame units", "4", "(0,inf)",
+         "From the target to the eye; 4 in the data frame with 30 degrees shows the whole box.", pixels, "", "3"},
+        {"elevation_deg", number, "degree", "20", "(-90,90)", "Height of the circle above the target's plane.", pixels,
+         "", "-35", "path=circle"},
+        {"start_deg", number, "degree", "0", "",
+         "Angle of view 0 about the axis, from the direction of x (of y where the axis is x).", pixels, "", "25"},
+        {"views", integer, "", "8", "[1,10000]", "Number of views.", pixels, R"({"camera":{"view":1}})", "5"},
+        {"view", json, "", "null", "null (all views, each a case) or a whole number in [0, views-1]",
+         "The view that a case shows.", pixels, R"({"camera":{"view":1}})", "2", "",
+         R"({"type":["integer","null"],"minimum":0})"},
+        {"projection", choice, "", "\"perspective\"", "perspective|orthographic", "Kind of the camera.", pixels, "",
+         "\"orthographic\""},
+        {"fov_deg", number, "degree", "30", "(0,180)", "Vertical field of view.", pixels, "", "20",
+         "projection=perspective"},
+        {"height", number, "frame units", "2", "(0,inf)", "Height of the image.", pixels,
+         R"({"camera":{"projection":"orthographic"}})", "1.5", "projection=orthographic"}},
+       {{"view", view}},
+       check_orbit},
       {"camera",
        "ray",
        "Every pixel is the same ray.",
@@ -203,6 +257,10 @@ std::vector<SectionType> declare() {
        "What an experiment's numbers must satisfy; one of at_least, at_most, between, order.",
        {{"metric", text, "", nullptr, "", "A value of one of the metrics, e.g. psnr or psnr.r.", nothing},
         {"against", text, "", nullptr, "", "A reference's name, or variant: the first variant case.", nothing},
+        {"over", choice, "", "\"cases\"", "cases|views",
+         "Cases: every case that is meant; views: one value of all views (camera.view) that differ in nothing else.",
+         nothing},
+        {"take", choice, "", "\"worst\"", "worst|mean", "Which value of the views.", nothing, "", "", "over=views"},
         {"where", json, "", "{}", "a section of key path -> value", "The cases that are meant; empty: all.", nothing,
          "", "", "", R"({"type":"object"})"},
         {"at_least", json, "the metric's", "null", "null or a number", "Lower bound.", nothing, "", "", "",

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/interfaces/parameter.h"
+#include "framework/interfaces/parameter_set.h"
 
 namespace dvrlab {
 
@@ -22,6 +22,8 @@ struct SectionType {
   const char* summary;  // one sentence
   std::vector<Parameter> keys;
   std::vector<JsonShape> shapes = {};
+  /// What the declarations cannot say, as Plugin::check: throws InputError that begins with the key's path.
+  void (*check)(const ParameterSet& keys) = nullptr;
 };
 
 /// All of them. `data` and `optical_model` are the keys that every plugin of that kind shares.

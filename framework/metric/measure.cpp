@@ -33,7 +33,8 @@ std::vector<Measure> measure(const ResolvedCase& c, const Registry& registry, co
   std::vector<Measure> measures;
   for (const Section& m : c.metrics) {
     const auto& plugin = registry.get<MetricPlugin>("metric", m.type);
-    measures.push_back({against, m.type, plugin.compare(m.parameters, image, reference)});
+    measures.push_back({against, m.type, plugin.compare(m.parameters, image, reference),
+                        plugin.better() == MetricPlugin::Better::higher});
   }
   return measures;
 }

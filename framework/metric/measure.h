@@ -31,6 +31,8 @@ class Measurer {
   void measure_case(std::size_t index, FrameImage image, CaseRecord& record);
   /// The case is through, with or without an image: forgets what no later case needs.
   void done(std::size_t index);
+  /// Number of images that wait for later cases.
+  std::size_t kept() const { return kept_.size(); }
 
  private:
   struct Kept {

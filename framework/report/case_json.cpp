@@ -28,6 +28,8 @@ json backend_of(const CaseRecord& r) {
     times[t.phase] = {{"median_s", t.median}, {"interquartile_range_s", t.interquartile_range}};
     if (t.cpu_median >= 0) times[t.phase]["cpu_median_s"] = t.cpu_median;
   }
+  json memory = json::object();
+  for (const auto& [part, bytes] : r.memory) memory[part] = static_cast<std::uint64_t>(bytes);
   const ParameterSet& top = r.plan->resolved.top;
   return {{"device", r.device.device},
           {"driver", r.device.driver},
@@ -36,6 +38,7 @@ json backend_of(const CaseRecord& r) {
           {"seed", top.integer("seed")},
           {"counters",
            {{"samples", r.counters.samples}, {"skipped", r.counters.skipped}, {"terminated", r.counters.terminated}}},
+          {"memory_bytes", memory},
           {"repeats", top.integer("repeat")},
           {"times", times}};
 }

@@ -29,6 +29,7 @@ std::vector<PhaseStatistics> phase_statistics(const std::vector<std::vector<Phas
 struct Measure {
   std::string against, metric;
   std::vector<std::pair<std::string, double>> values;
+  bool higher_is_better = false;
 };
 
 /// The bit-for-bit comparison with the first variant that has an image.
@@ -53,6 +54,7 @@ struct CaseRecord {
 
   nlohmann::json scene = nlohmann::json::object();
   DeviceInfo device;
+  std::vector<std::pair<std::string, double>> memory;  // part -> bytes, as stated before they were allocated
   FrameCounters counters;
   std::vector<PhaseStatistics> times;
   std::vector<Measure> measures;

@@ -9,6 +9,7 @@
 #include "framework/image/atomic_file.h"
 #include "framework/image/image_io.h"
 #include "framework/report/pretty_json.h"
+#include "framework/report/view_statistics.h"
 
 namespace dvrlab {
 namespace fs = std::filesystem;
@@ -41,6 +42,7 @@ class Table {
     rows_.back().resize(columns_.size());
     rows_.back()[at] = value;
   }
+  bool empty() const { return rows_.empty(); }
   std::string csv() const {
     std::string text;
     line(text, columns_);
@@ -76,6 +78,14 @@ std::string text_of(double x) {
   return n.is_string() ? n.get<std::string>() : n.dump();
 }
 
+/// `folder` relative to `from` where both lie in one folder other than "/"; else as it is.
+std::string movable(const std::string& folder, const std::string& from) {
+  const fs::path there = fs::weakly_canonical(folder), here = fs::weakly_canonical(from);
+  const bool together = std::next(there.begin()) != there.end() && std::next(here.begin()) != here.end() &&
+                        *std::next(there.begin()) == *std::next(here.begin());
+  return together ? there.lexically_relative(here).string() : there.string();
+}
+
 }  // namespace
 
 ResultsTree::ResultsTree(const std::string& out, const std::string& experiment)
@@ -93,7 +103,9 @@ void ResultsTree::write_images(const CaseRecord& r, const FrameImage& image) con
 
 void ResultsTree::write_case(const CaseRecord& r) const {
   make_folder(case_folder(r.plan->id));
-  write_text(case_folder(r.plan->id) + "/case.json", pretty_json(case_json(r)) + "\n");
+  nlohmann::ordered_json record = case_json(r);
+  record["config"]["base_folder"] = movable(r.plan->resolved.base_folder, case_folder(r.plan->id));
+  write_text(case_folder(r.plan->id) + "/case.json", pretty_json(record) + "\n");
 }
 
 void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
@@ -121,6 +133,28 @@ void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
     }
   }
   write_text(folder_ + "/results.csv", table.csv());
+}
+
+void ResultsTree::write_views(const std::vector<CaseRecord>& records) const {
+  Table table;
+  for (const ViewRow& row : view_rows(records)) {
+    table.begin_row();
+    for (const AxisChoice& c : row.choices) table.set(c.key, c.label);
+    table.set("against", row.against);
+    table.set("metric", row.metric);
+    table.set("mean", text_of(row.statistic.mean));
+    table.set("worst", text_of(row.statistic.worst));
+    table.set("worst_view", row.worst_view);
+    table.set("views", std::to_string(row.views));
+    table.set("planned", std::to_string(row.planned));
+    table.set("perfect", std::to_string(row.statistic.perfect));
+  }
+  std::error_code none;
+  if (table.empty()) {
+    fs::remove(folder_ + "/views.csv", none);  // of an earlier run
+  } else {
+    write_text(folder_ + "/views.csv", table.csv());
+  }
 }
 
 }  // namespace dvrlab

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "framework/report/text_table.h"
+#include "framework/report/view_statistics.h"
 
 namespace dvrlab {
 namespace {
@@ -42,6 +43,69 @@ Worst worst_variant(const RunSummary& s) {
   return worst;
 }
 
+/// What the experiment asked to compare, and what came of it.
+struct Comparisons {
+  std::size_t planned = 0, made = 0;
+  bool in_vain() const { return planned > 0 && made == 0; }
+};
+
+Comparisons with_variants(const RunSummary& s) {
+  Comparisons c;
+  for (std::size_t i = 0; i < s.experiment->cases.size(); ++i) c.planned += s.experiment->cases[i].first_variant != i;
+  for (const CaseRecord& r : s.records) c.made += r.variant.has_value();
+  return c;
+}
+
+Comparisons with_references(const RunSummary& s) {
+  Comparisons c;
+  for (const PlannedCase& p : s.experiment->cases) c.planned += !p.references.empty() && !p.resolved.metrics.empty();
+  for (const CaseRecord& r : s.records) {
+    c.made +=
+        std::any_of(r.measures.begin(), r.measures.end(), [](const Measure& m) { return m.against != "variant"; });
+  }
+  return c;
+}
+
+std::string name_of(const ViewRow& row) {
+  std::string text;
+  for (const AxisChoice& c : row.choices) text += (text.empty() ? "" : ",") + c.key + "=" + c.label;
+  return text.empty() ? "case" : text;
+}
+
+/// Mean and worst over the views, of the first value of every metric.
+std::string view_text(const RunSummary& s) {
+  std::vector<std::vector<std::string>> table = {{"over views of", "metric", "mean", "worst", "in view", "views"}};
+  std::size_t rows = 0;
+  for (const ViewRow& row : view_rows(s.records)) {
+    if (!row.headline || ++rows > most_rows) continue;
+    table.push_back(
+        {name_of(row), row.metric + " against " + row.against, short_number(row.statistic.mean),
+         short_number(row.statistic.worst), row.worst_view,
+         std::to_string(row.views) + (row.views < row.planned ? " of " + std::to_string(row.planned) : std::string())});
+  }
+  if (rows == 0) return "";
+  return text_table(table) +
+         (rows > most_rows ? "(" + std::to_string(rows - most_rows) + " more rows: see views.csv)\n" : "");
+}
+
+nlohmann::ordered_json view_json(const RunSummary& s) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ViewRow& row : view_rows(s.records)) {
+    nlohmann::ordered_json choices = nlohmann::ordered_json::object();
+    for (const AxisChoice& c : row.choices) choices[c.key] = c.label;
+    list.push_back({{"choices", choices},
+                    {"against", row.against},
+                    {"metric", row.metric},
+                    {"mean", json_number(row.statistic.mean)},
+                    {"worst", json_number(row.statistic.worst)},
+                    {"worst_view", row.worst_view},
+                    {"views", row.views},
+                    {"planned", row.planned},
+                    {"perfect", row.statistic.perfect}});
+  }
+  return list;
+}
+
 }  // namespace
 
 int exit_code(const RunSummary& s) {
@@ -52,7 +116,10 @@ int exit_code(const RunSummary& s) {
     return r.ran && std::any_of(r.expectations.begin(), r.expectations.end(),
                                 [](const ExpectationResult& e) { return e.verdict == Verdict::not_supported; });
   });
-  return count(s, Verdict::error) > 0 || s.stopped || !some_ran || unjudged ? 3 : 0;
+  return count(s, Verdict::error) > 0 || s.stopped || !some_ran || unjudged || with_variants(s).in_vain() ||
+                 with_references(s).in_vain()
+             ? 3
+             : 0;
 }
 
 std::string summary_text(const RunSummary& s) {
@@ -85,12 +152,15 @@ std::string summary_text(const RunSummary& s) {
     if (ids.size() > 1) text.append(" and ").append(std::to_string(ids.size() - 1)).append(" more");
     text += "]\n";
   }
+  text += view_text(s);
   const Worst worst = worst_variant(s);
   if (worst.record != nullptr) {
     text += "variants: " + std::to_string(worst.compared) + " compared bit for bit, worst difference " +
             short_number(worst.record->variant->max_abs) +
             (worst.record->variant->different > 0 ? " (" + worst.record->plan->id + ")" : "") + "\n";
   }
+  if (with_variants(s).in_vain()) text += "variants: none could be compared, so nothing is known of their equality\n";
+  if (with_references(s).in_vain()) text += "references: nothing could be measured against any of them\n";
   text += "verdicts:";
   for (const Verdict v : {Verdict::pass, Verdict::fail, Verdict::not_supported, Verdict::error}) {
     text += (v == Verdict::pass ? " " : ", ") + std::to_string(count(s, v)) + " " + verdict_text(v);
@@ -104,11 +174,8 @@ std::string summary_text(const RunSummary& s) {
 nlohmann::ordered_json summary_json(const RunSummary& s) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const CaseRecord& r : s.records) cases.push_back(case_json(r));
-  return {{"folder", s.folder},
-          {"stopped", s.stopped},
-          {"planned", s.planned},
-          {"exit_code", exit_code(s)},
-          {"cases", cases}};
+  return {{"folder", s.folder},        {"stopped", s.stopped},  {"planned", s.planned},
+          {"exit_code", exit_code(s)}, {"views", view_json(s)}, {"cases", cases}};
 }
 
 }  // namespace dvrlab

@@ -1,8 +1,9 @@
 #include "framework/scene/camera.h"
 
-#include <limits>
+#include <cmath>
 
 #include "framework/scene/buffers.h"
+#include "framework/scene/orbit.h"
 #include "framework/scene/vector.h"
 
 namespace dvrlab {
@@ -29,42 +30,38 @@ struct AffineRays {
   double t0 = 0, t1 = 1e30;
 };
 
-struct Basis {
-  Vector3 forward, right, up;
-};
-
-Basis looking(const ParameterSet& p, const Vector3& position, const Vector3& target) {
-  Basis b;
-  b.forward =
+Eye looking(const ParameterSet& p, const Vector3& position, const Vector3& target, const char* up) {
+  const Vector3 forward =
       unit_vector(minus(target, position), p.path_of("target") + ": equals camera.position; give another point");
-  b.right = unit_vector(cross(b.forward, p.vector3("up")),
-                        p.path_of("up") + ": is parallel to the view direction; give another direction");
-  b.up = cross(b.right, b.forward);
-  return b;
+  Eye e;
+  e.position = position;
+  e.back = times(forward, -1.0);
+  e.right = unit_vector(cross(forward, p.vector3(up)),
+                        p.path_of(up) + ": is 0 or parallel to the view direction; give another direction");
+  e.up = cross(e.right, forward);
+  return e;
 }
 
-AffineRays perspective(const ParameterSet& p, const Frame& frame, int width, int height) {
+AffineRays perspective(const ParameterSet& p, const Eye& eye, int width, int height) {
   AffineRays r;
-  r.origin = frame.point(p, "position");
-  const Basis b = looking(p, r.origin, frame.point(p, "target"));
   const double half = std::tan(p.number("fov_deg") * 3.14159265358979323846 / 360.0), aspect = double(width) / height;
-  r.direction_x = times(b.right, 2.0 * half * aspect / width);
-  r.direction_y = times(b.up, -2.0 * half / height);
-  r.direction = plus(
-      b.forward, plus(times(b.right, half * aspect * (1.0 / width - 1.0)), times(b.up, half * (1.0 - 1.0 / height))));
+  r.origin = eye.position;
+  r.direction_x = times(eye.right, 2.0 * half * aspect / width);
+  r.direction_y = times(eye.up, -2.0 * half / height);
+  r.direction =
+      minus(plus(times(eye.right, half * aspect * (1.0 / width - 1.0)), times(eye.up, half * (1.0 - 1.0 / height))),
+            eye.back);
   return r;
 }
 
-AffineRays orthographic(const ParameterSet& p, const Frame& frame, int width, int height) {
+AffineRays orthographic(const ParameterSet& p, const Eye& eye, const Frame& frame, int width, int height) {
   AffineRays r;
-  const Vector3 position = frame.point(p, "position");
-  const Basis b = looking(p, position, frame.point(p, "target"));
   const double half = 0.5 * p.number("height") * frame.unit(p), aspect = double(width) / height;
-  r.direction = b.forward;
-  r.origin_x = times(b.right, 2.0 * half * aspect / width);
-  r.origin_y = times(b.up, -2.0 * half / height);
-  r.origin = plus(position,
-                  plus(times(b.right, half * aspect * (1.0 / width - 1.0)), times(b.up, half * (1.0 - 1.0 / height))));
+  r.direction = times(eye.back, -1.0);
+  r.origin_x = times(eye.right, 2.0 * half * aspect / width);
+  r.origin_y = times(eye.up, -2.0 * half / height);
+  r.origin = plus(eye.position, plus(times(eye.right, half * aspect * (1.0 / width - 1.0)),
+                                     times(eye.up, half * (1.0 - 1.0 / height))));
   return r;
 }
 
@@ -78,16 +75,33 @@ AffineRays single_ray(const ParameterSet& p, const Frame& frame) {
   return r;
 }
 
+AffineRays rays_of(const Section& camera, const Frame& frame, int width, int height) {
+  const ParameterSet& p = camera.parameters;
+  if (camera.type == "ray") return single_ray(p, frame);
+  const Eye eye = eye_of(camera, frame);
+  const bool parallel =
+      camera.type == "orthographic" || (camera.type == "orbit" && p.text("projection") == "orthographic");
+  return parallel ? orthographic(p, eye, frame, width, height) : perspective(p, eye, width, height);
+}
+
 Uniform vec(const char* name, const Vector3& v) { return Uniform::vector(name, v[0], v[1], v[2]); }
 
 }  // namespace
 
+Eye eye_of(const Section& camera, const Frame& frame) {
+  const ParameterSet& p = camera.parameters;
+  if (camera.type == "ray")
+    throw InputError(p.path_of("type") +
+                     ": a ray camera has no axes of its own; use perspective, orthographic or orbit");
+  const Vector3 target = frame.point(p, "target");
+  if (camera.type != "orbit") return looking(p, frame.point(p, "position"), target, "up");
+  const Vector3 position = plus(target, times(orbit_direction(p), p.number("distance") * frame.unit(p)));
+  return looking(p, position, target, "axis");
+}
+
 void add_camera(const Section& camera, const Field& field, int width, int height, KernelUnit& unit) {
   const Frame frame(field);
-  const ParameterSet& p = camera.parameters;
-  const AffineRays r = camera.type == "perspective"    ? perspective(p, frame, width, height)
-                       : camera.type == "orthographic" ? orthographic(p, frame, width, height)
-                                                       : single_ray(p, frame);
+  const AffineRays r = rays_of(camera, frame, width, height);
   const Affine to_grid = field.to_world.inverse();
   const auto& m = to_grid.m;
   unit.uniforms.insert(

@@ -25,6 +25,15 @@ class Frame {
   double half_diagonal_;
 };
 
+/// The camera's own axes: where it stands, relative to the centre, what is right and up in the image, and the way back
+/// from the target to the eye. Unit vectors, world units.
+struct Eye {
+  Vector3 position, right, up, back;
+};
+
+/// Throws InputError naming the key for a camera that looks nowhere, and for one that has no axes (ray).
+Eye eye_of(const Section& camera, const Frame& frame);
+
 /// Adds frame_origin..., frame_direction..., frame_to_grid_*, frame_t0, frame_t1, frame_lo, frame_hi.
 /// Throws InputError naming the key for a camera that looks nowhere.
 void add_camera(const Section& camera, const Field& field, int width, int height, KernelUnit& unit);

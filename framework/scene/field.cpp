@@ -1,9 +1,9 @@
 #include "framework/interfaces/field.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
+#include "framework/config/environment.h"
 #include "framework/interfaces/error.h"
 #include "framework/scene/voxels.h"
 
@@ -62,19 +62,7 @@ double GridField::at(int i, int j, int k) const {
 }
 
 std::string resolve_path(const std::string& file, const LoadContext& context, const std::string& key) {
-  std::string expanded;
-  for (std::size_t i = 0; i < file.size();) {
-    const std::size_t close = file.compare(i, 2, "${") == 0 ? file.find('}', i) : std::string::npos;
-    if (close == std::string::npos) {
-      expanded += file[i++];
-      continue;
-    }
-    const std::string name = file.substr(i + 2, close - i - 2);
-    const char* value = std::getenv(name.c_str());
-    if (!value) throw InputError(key + ": the environment variable " + name + " in \"" + file + "\" is not set");
-    expanded += value;
-    i = close + 1;
-  }
+  const std::string expanded = expand_environment(file, key);
   const std::filesystem::path path = std::filesystem::path(context.base_folder) / expanded;  // absolute paths win
   std::error_code error;
   if (expanded.empty() || !std::filesystem::exists(path, error))

@@ -1,13 +1,49 @@
 #include "framework/scene/lighting.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "framework/interfaces/error.h"
 #include "framework/interfaces/transfer_function.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/camera.h"
 #include "framework/scene/vector.h"
 
 namespace dvrlab {
+
+namespace {
+
+/// The direction or point of key `name` in the camera's axes: x right, y up, z towards the eye.
+Vector3 along(const Eye& eye, const Vector3& v) {
+  return plus(plus(times(eye.right, v[0]), times(eye.up, v[1])), times(eye.back, v[2]));
+}
+
+/// Where the light's own frame is the camera's: nothing for the other frames.
+std::optional<Eye> eye_for(const Section& light, const Section& camera, const Frame& frame) {
+  const ParameterSet& p = light.parameters;
+  if (p.text("frame") != "camera") return std::nullopt;
+  if (camera.type == "ray")
+    throw InputError(p.path_of("frame") +
+                     ": a ray camera has no right and up that \"camera\" could mean; use \"world\" or \"data\", or "
+                     "another camera");
+  return eye_of(camera, frame);
+}
+
+void place_light(const Section& s, const Section& camera, const Frame& frame, Light& light) {
+  const ParameterSet& p = s.parameters;
+  const std::optional<Eye> eye = eye_for(s, camera, frame);
+  if (s.type == "directional") {
+    const Vector3 direction = eye ? along(*eye, p.vector3("direction")) : p.vector3("direction");
+    light.type = Light::Type::directional;
+    light.position = unit_vector(direction, p.path_of("direction") + ": is 0; give a direction");
+  } else {
+    light.type = Light::Type::point;
+    light.position = eye ? plus(eye->position, times(along(*eye, p.vector3("position")), frame.unit(camera.parameters)))
+                         : frame.point(p, "position");
+  }
+}
+
+}  // namespace
 
 LocalShading local_shading(const ResolvedCase& c, const Registry& registry, const Field& field, bool linear) {
   const Frame frame(field);
@@ -17,13 +53,7 @@ LocalShading local_shading(const ResolvedCase& c, const Registry& registry, cons
     Light light;
     light.color = p.vector3("color");
     if (linear) std::transform(light.color.begin(), light.color.end(), light.color.begin(), display_to_linear);
-    if (s.type == "directional") {
-      light.type = Light::Type::directional;
-      light.position = unit_vector(p.vector3("direction"), p.path_of("direction") + ": is 0; give a direction");
-    } else if (s.type == "point") {
-      light.type = Light::Type::point;
-      light.position = frame.point(p, "position");
-    }
+    if (s.type != "head") place_light(s, c.camera, frame, light);
     shading.light.push_back(light);
   }
   for (const Section& s : c.illumination)

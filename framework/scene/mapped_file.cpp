@@ -13,7 +13,7 @@
 namespace dvrlab {
 
 std::shared_ptr<const MappedFile> MappedFile::open(const std::string& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe is refused, not waited for
   if (descriptor < 0) throw InputError(file + ": cannot be opened: " + std::strerror(errno));
   struct stat status {};
   const bool known = ::fstat(descriptor, &status) == 0;

@@ -17,6 +17,8 @@ class MemoryBill {
   /// the sum when the sum is beyond the limit.
   void state(const std::string& part, double bytes);
   double sum() const;
+  /// Part and bytes, in the order in which they were stated first.
+  const std::vector<std::pair<std::string, double>>& parts() const { return parts_; }
 
  private:
   double limit_;

@@ -12,6 +12,7 @@
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
 #include "framework/scene/medium_table.h"
+#include "framework/scene/tf_domain.h"
 #include "framework/scene/vector.h"
 
 namespace dvrlab {
@@ -28,7 +29,7 @@ std::string sampler_of(const ResolvedCase& c, const Field& field) {
   return wanted.empty() ? field.sampler : wanted;
 }
 
-// The medium in physical values; `voxel` is the data's smallest spacing in world units.
+// The medium in values of tf_domain; `voxel` is the data's smallest spacing in world units.
 Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
                     std::vector<std::string>& notes) {
   const ParameterSet& p = c.optical_model.parameters;
@@ -198,10 +199,12 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
     scene.notes.emplace_back(text);
   }
 
-  const double a = field->slope * field->stored_min + field->intercept,
-               b = field->slope * field->stored_max + field->intercept;
-  const Medium physical = model_medium(c, registry, field->voxel, std::min(a, b), std::max(a, b), scene.notes);
-  scene.medium = physical.rescaled(field->slope, field->intercept);
+  const TfDomain domain = tf_domain(c.optical_model.parameters, *field);
+  if (!domain.note.empty()) scene.notes.push_back(domain.note);
+  const double slope = domain.slope(*field), intercept = domain.intercept(*field);
+  const auto [lowest, highest] =
+      std::minmax({slope * field->stored_min + intercept, slope * field->stored_max + intercept});
+  scene.medium = model_medium(c, registry, field->voxel, lowest, highest, scene.notes).rescaled(slope, intercept);
   const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
   const EstimatorDeclaration declared = estimator.declaration();
   refuse_impossible(c, scene.medium, declared);

@@ -7,7 +7,7 @@
 
 namespace dvrlab {
 
-std::string sha256(std::initializer_list<std::span<const std::byte>> parts) {
+std::string sha256(const std::vector<std::span<const std::byte>>& parts) {
   const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned length = 0;

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace dvrlab {
 
 /// SHA-256 of the parts, one after the other, as 64 hexadecimal digits.
-std::string sha256(std::initializer_list<std::span<const std::byte>> parts);
+std::string sha256(const std::vector<std::span<const std::byte>>& parts);
 
 }  // namespace dvrlab

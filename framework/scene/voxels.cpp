@@ -15,7 +15,6 @@ namespace dvrlab {
 namespace {
 
 constexpr std::uint64_t least_voxels = 1 << 18;  // below this a thread costs more than it saves
-constexpr std::size_t alignment = 64;
 
 template <class T>
 T load(const std::byte* p, bool swap) {
@@ -25,23 +24,25 @@ T load(const std::byte* p, bool swap) {
   return std::bit_cast<T>(b);
 }
 
-// Writes every voxel as Dst and returns the largest |source - kept|. long double holds every source type exactly.
+// Writes every voxel as Dst and returns the largest |source - kept|. The difference is exact: double holds all numbers
+// but the 64-bit integers, and long double those.
 template <class Src, class Dst>
 double convert(const std::byte* in, bool swap, Dst* out, std::uint64_t count, const std::string& where) {
-  long double worst = 0;
+  using Exact = std::conditional_t<std::is_integral_v<Src> && sizeof(Src) == 8, long double, double>;
+  Exact worst = 0;
   std::mutex guard;
   parallel_ranges(count, least_voxels, [&](std::uint64_t begin, std::uint64_t end) {
-    long double mine = 0;
+    Exact mine = 0;
     for (std::uint64_t i = begin; i < end; ++i) {
       const Src x = load<Src>(in + i * sizeof(Src), swap);
       out[i] = static_cast<Dst>(x);
       if constexpr (!std::is_same_v<Src, Dst>) {
-        const long double exact = static_cast<long double>(x);
+        const Exact exact = static_cast<Exact>(x);
         if (!std::isfinite(exact)) continue;
         if (!std::isfinite(static_cast<float>(out[i])))
           throw InputError(where + ": voxel " + std::to_string(i) + " is " + std::to_string(static_cast<double>(x)) +
                            ", beyond what float32 holds; rescale the data");
-        mine = std::max(mine, std::fabs(exact - static_cast<long double>(out[i])));
+        mine = std::max(mine, std::fabs(exact - static_cast<Exact>(out[i])));
       }
     }
     const std::lock_guard lock(guard);
@@ -60,29 +61,10 @@ double copy(GridField& grid, const SourceVoxels& source, const std::string& wher
 }
 
 double copy_any(GridField& grid, const SourceVoxels& source, const std::string& where) {
-  switch (source.type) {
-    case SourceType::i8:
-      return copy<std::int8_t, std::int8_t>(grid, source, where);
-    case SourceType::u8:
-      return copy<std::uint8_t, std::uint8_t>(grid, source, where);
-    case SourceType::i16:
-      return copy<std::int16_t, std::int16_t>(grid, source, where);
-    case SourceType::u16:
-      return copy<std::uint16_t, std::uint16_t>(grid, source, where);
-    case SourceType::i32:
-      return copy<std::int32_t, float>(grid, source, where);
-    case SourceType::u32:
-      return copy<std::uint32_t, float>(grid, source, where);
-    case SourceType::i64:
-      return copy<std::int64_t, float>(grid, source, where);
-    case SourceType::u64:
-      return copy<std::uint64_t, float>(grid, source, where);
-    case SourceType::f32:
-      return copy<float, float>(grid, source, where);
-    case SourceType::f64:
-      return copy<double, float>(grid, source, where);
-  }
-  throw std::logic_error("unknown source type");
+  return with_source_type(source.type, [&]<class Src>(Src) {
+    using Dst = std::conditional_t<sizeof(Src) <= 2, Src, float>;
+    return copy<Src, Dst>(grid, source, where);
+  });
 }
 
 bool is_kept(SourceType type) {
@@ -156,8 +138,8 @@ std::uint64_t set_voxels_bytes(SourceType type, bool swap, std::uint64_t count) 
 }
 
 std::shared_ptr<void> allocate_voxels(std::uint64_t bytes, const std::string& where) {
-  const std::uint64_t rounded = (bytes + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, rounded);
+  const std::uint64_t rounded = (bytes + voxel_alignment - 1) / voxel_alignment * voxel_alignment;
+  void* memory = std::aligned_alloc(voxel_alignment, rounded);
   if (!memory) throw NotSupported(where + ": no memory for " + std::to_string(bytes) + " bytes of voxels");
   return std::shared_ptr<void>(memory, std::free);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "framework/interfaces/field.h"
@@ -15,6 +16,34 @@ enum class SourceType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 std::size_t bytes_of(SourceType type);
 /// "int8", "float64".
 const char* name_of(SourceType type);
+
+/// Calls f(T{}) with the C++ type of `type`.
+template <class F>
+auto with_source_type(SourceType type, F f) {
+  switch (type) {
+    case SourceType::i8:
+      return f(std::int8_t{});
+    case SourceType::u8:
+      return f(std::uint8_t{});
+    case SourceType::i16:
+      return f(std::int16_t{});
+    case SourceType::u16:
+      return f(std::uint16_t{});
+    case SourceType::i32:
+      return f(std::int32_t{});
+    case SourceType::u32:
+      return f(std::uint32_t{});
+    case SourceType::i64:
+      return f(std::int64_t{});
+    case SourceType::u64:
+      return f(std::uint64_t{});
+    case SourceType::f32:
+      return f(float{});
+    case SourceType::f64:
+      return f(double{});
+  }
+  throw std::logic_error("unknown source type");
+}
 
 /// The type in which a grid keeps it: its own, or float32.
 VoxelType kept_type(SourceType type);
@@ -39,7 +68,10 @@ void set_voxels(GridField& grid, const SourceVoxels& source, const std::string& 
 /// Bytes that set_voxels allocates for `count` voxels.
 std::uint64_t set_voxels_bytes(SourceType type, bool swap, std::uint64_t count);
 
-/// Uninitialised memory for voxels, aligned for every instruction set. Throws NotSupported when there is too little.
+inline constexpr std::size_t voxel_alignment = 64;  // bytes
+
+/// Uninitialised memory for voxels, aligned to it for every instruction set. Throws NotSupported when there is too
+/// little.
 std::shared_ptr<void> allocate_voxels(std::uint64_t bytes, const std::string& where);
 
 }  // namespace dvrlab

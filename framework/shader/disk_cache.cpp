@@ -2,12 +2,12 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
 
+#include "framework/backend/cache_folder.h"
 #include "framework/report/log.h"
 #include "framework/scene/sha256.h"
 
@@ -15,17 +15,6 @@ namespace dvrlab {
 namespace {
 
 constexpr std::size_t hash_characters = 64;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
-
-std::string cache_root() {
-  if (const std::string own = environment("DVRLAB_CACHE"); !own.empty()) return own;
-  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return xdg + "/dvrlab";
-  return environment("HOME") + "/.cache/dvrlab";
-}
 
 std::string hash_of(std::span<const std::byte> content) { return sha256({content}); }
 
@@ -38,7 +27,7 @@ void say_once(const std::string& folder, const std::string& reason) {
 
 }  // namespace
 
-DiskCache::DiskCache(const std::string& subfolder) : folder_(cache_root() + "/" + subfolder) {}
+DiskCache::DiskCache(const std::string& subfolder) : folder_(cache_folder() + "/" + subfolder) {}
 
 std::optional<std::vector<std::byte>> DiskCache::read(const std::string& name) const {
   std::ifstream in(folder_ + "/" + name, std::ios::binary);

@@ -9,7 +9,7 @@
 
 namespace dvrlab {
 
-/// A folder below ${DVRLAB_CACHE}, else ${XDG_CACHE_HOME}/dvrlab, else ~/.cache/dvrlab. Entries carry the hash of
+/// A folder below cache_folder() (framework/backend). Entries carry the hash of
 /// their content: a damaged one counts as absent. They appear at once (rename), so readers never see half of one.
 /// A folder that cannot be written is said once on stderr, then nothing is kept.
 class DiskCache {

@@ -18,6 +18,7 @@ struct Header {
   std::array<double, 6> quatern{};  // b, c, d, offset x, y, z
   std::array<double, 12> srow{};
   std::string magic = {};
+  int units = 0;
 
   template <class T>
   void put(Bytes& out, std::size_t at, double x) const {
@@ -45,6 +46,7 @@ struct Header {
     one ? put<float>(out, 108, 352) : put<std::int64_t>(out, 168, 544);
     real(112, 176, 0, slope);
     real(116, 184, 0, intercept);
+    one ? put<std::int8_t>(out, 123, units) : put<std::int32_t>(out, 500, units);
     code(252, 344, qform);
     code(254, 348, sform);
     for (std::size_t i = 0; i < 6; ++i) real(256, 352, i, quatern[i]);
@@ -146,6 +148,36 @@ TEST_F(Nifti, ScalingAndNan) {
   EXPECT_EQ(load_grid("nifti", {{"file", file}}, replace)->at(1, 2, 0), -2);
 }
 
+TEST_F(Nifti, AnatomyUnitsAndAnUnsetSlope) {
+  const Bytes voxels(24, 1);
+  for (const int version : {1, 2}) {
+    const auto read = [&](Header h) {
+      h.version = version;
+      return load("nifti", {{"file", file_of(h, voxels)}});
+    };
+    Header placed{.sform = 1};
+    placed.srow = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    EXPECT_TRUE(read(placed)->anatomical);
+    EXPECT_TRUE(read({.qform = 1})->anatomical);
+    EXPECT_FALSE(read({})->anatomical);  // pixdim alone says nothing about a patient
+    EXPECT_EQ(read({})->length_unit, "");
+    EXPECT_EQ(read({.units = 1})->length_unit, "m");
+    EXPECT_EQ(read({.units = 2 + 8})->length_unit, "mm");  // with seconds
+    EXPECT_EQ(read({.units = 3})->length_unit, "um");
+    Header unset;
+    unset.slope = unset.intercept = std::numeric_limits<double>::quiet_NaN();
+    const auto plain = read(unset);
+    EXPECT_EQ(plain->slope, 1);
+    EXPECT_EQ(plain->intercept, 0);
+    EXPECT_TRUE(has_note(*plain, "scl_slope is NaN"));
+    Header half;
+    half.slope = 2;
+    half.intercept = std::numeric_limits<double>::quiet_NaN();
+    half.version = version;
+    EXPECT_NE(load_error("nifti", {{"file", file_of(half, voxels)}}).find("scl_inter"), std::string::npos);
+  }
+}
+
 TEST_F(Nifti, OneTimePointIsRead) {
   EXPECT_NO_THROW(load("nifti", {{"file", file_of(Header{.dim = {4, 4, 3, 2, 1}}, Bytes(24, 1))}}));
   EXPECT_NO_THROW(load("nifti", {{"file", file_of(Header{.dim = {5, 4, 3, 2, 1, 1}}, Bytes(24, 1))}}));
@@ -172,6 +204,8 @@ TEST_F(Nifti, BadInputGetsOneClearError) {
       {with({.dim = {99, 4, 3, 2}}, voxels), "99 dimensions"},
       {with({.dim = {3, 4, 0, 2}}, voxels), "at least 2"},
       {with({.dim = {3, 4, -3, 2}}, voxels), "at least 2"},
+      {with({.dim = {3, 4, 1, 2}}, voxels), "at least 2"},
+      {with({.magic = "ni1"}, {}), "store it as one .nii file"},
       {with({.version = 2, .dim = {3, 2000000000, 2000000000, 2000000000}, .datatype = 64, .bits = 64}, voxels),
        "overflow"},
       {with({.datatype = 128, .bits = 24}, Bytes(72, 1)), "(RGB24) is no scalar"},

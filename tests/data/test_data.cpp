@@ -1,5 +1,6 @@
 #include "tests/data/test_data.h"
 
+#include <bzlib.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -80,6 +81,33 @@ Bytes gzip(const Bytes& bytes) {
   gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
   gzclose(file);
   return read(path);
+}
+
+Bytes zlib(const Bytes& bytes) {
+  uLongf size = compressBound(bytes.size());
+  Bytes out(size);
+  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  out.resize(size);
+  return out;
+}
+
+Bytes bzip2(const Bytes& bytes) {
+  auto size = static_cast<unsigned>(bytes.size() + bytes.size() / 100 + 600);
+  Bytes out(size), in = bytes;
+  BZ2_bzBuffToBuffCompress(out.data(), &size, in.data(), static_cast<unsigned>(in.size()), 9, 0, 0);
+  out.resize(size);
+  return out;
+}
+
+Bytes hex(const Bytes& bytes) {
+  Bytes out;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto b = static_cast<unsigned char>(bytes[i]);
+    out.push_back("0123456789abcdef"[b >> 4]);
+    out.push_back("0123456789ABCDEF"[b & 15]);
+    if (i % 7 == 6) out.push_back('\n');
+  }
+  return out;
 }
 
 std::string shared_data(const std::string& file) {

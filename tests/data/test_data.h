@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -39,6 +41,10 @@ std::string scratch(const std::string& file);
 void write(const std::string& path, const Bytes& bytes);
 Bytes read(const std::string& path);
 Bytes gzip(const Bytes& bytes);
+Bytes zlib(const Bytes& bytes);
+Bytes bzip2(const Bytes& bytes);
+/// Two hexadecimal digits per byte, in lines.
+Bytes hex(const Bytes& bytes);
 
 inline Bytes operator+(Bytes a, const Bytes& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -57,6 +63,18 @@ Bytes bytes_of_numbers(const std::vector<T>& numbers, bool big_endian) {
                    out.begin() + static_cast<std::ptrdiff_t>((i + 1) * sizeof(T)));
   }
   return out;
+}
+
+/// The numbers as text, so that they read back as they were.
+template <class T>
+Bytes ascii(const std::vector<T>& numbers) {
+  std::string text;
+  for (const T x : numbers) {
+    std::array<char, 40> word;
+    const auto [end, error] = std::to_chars(word.data(), word.data() + word.size(), x);
+    text.append(word.data(), end) += text.size() % 5 == 0 ? '\n' : ' ';
+  }
+  return Bytes(text.begin(), text.end());
 }
 
 /// Path of real data that the repository does not carry; "" when it is not there.

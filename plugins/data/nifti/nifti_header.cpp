@@ -52,6 +52,14 @@ SourceType source_type(int datatype, const std::string& name) {
   }
 }
 
+constexpr std::size_t size_of_version(int version) {
+  return version == 1 ? sizeof(nifti_1_header) : sizeof(nifti_2_header);
+}
+
+constexpr std::size_t magic_of_version(int version) {
+  return version == 1 ? offsetof(nifti_1_header, magic) : offsetof(nifti_2_header, magic);
+}
+
 // The version and the byte order, from sizeof_hdr and the magic word.
 struct Layout {
   int version;
@@ -64,9 +72,8 @@ Layout read_layout(std::span<const std::byte> file, const std::string& name) {
   };
   for (const bool swap : {false, true}) {
     for (const int version : {1, 2}) {
-      if (!is(swap, version == 1 ? sizeof(nifti_1_header) : sizeof(nifti_2_header))) continue;
-      const auto magic =
-          file.subspan(version == 1 ? offsetof(nifti_1_header, magic) : offsetof(nifti_2_header, magic), 4);
+      if (!is(swap, size_of_version(version))) continue;
+      const auto magic = file.subspan(magic_of_version(version), 4);
       const auto equals = [&](const char* word) { return std::memcmp(magic.data(), word, 4) == 0; };
       if (equals("ni1") || equals("ni2"))
         throw NotSupported(name + ": is the header of a .hdr/.img pair, which is not read; store it as one .nii file");
@@ -92,13 +99,14 @@ std::array<long long, 3> read_dims(const std::array<long long, 8>& dim, const st
   return {dim[1], dim[2], dim[3]};
 }
 
-Affine read_affine(const nifti_image& image, const std::string& name, std::vector<std::string>& notes) {
+void read_affine(const nifti_image& image, const std::string& name, NiftiHeader& h) {
   const bool sform = image.sform_code > 0, qform = image.qform_code > 0;
-  notes.push_back(std::string("world frame: RAS, by the file's ") +
-                  (sform   ? "sform"
-                   : qform ? "qform"
-                           : "pixdim alone, since it has neither sform nor qform"));
-  Affine a;
+  h.notes.push_back(std::string("world frame: RAS, by the file's ") +
+                    (sform   ? "sform"
+                     : qform ? "qform"
+                             : "pixdim alone, since it has neither sform nor qform"));
+  h.anatomical = sform || qform;
+  Affine& a = h.to_world;
   const auto& m = sform ? image.sto_xyz.m : image.qto_xyz.m;  // without a qform the library puts pixdim here
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) a.m[3 * r + c] = m[r][c];
@@ -107,7 +115,20 @@ Affine read_affine(const nifti_image& image, const std::string& name, std::vecto
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(a.m.begin(), a.m.end(), finite) || !std::all_of(a.t.begin(), a.t.end(), finite))
     throw InputError(name + ": the affine matrix holds a number that is not finite");
-  return a;
+}
+
+// Seconds and the like share the field; the bits of the length come first.
+std::string read_unit(int xyz_units) {
+  switch (xyz_units) {
+    case NIFTI_UNITS_METER:
+      return "m";
+    case NIFTI_UNITS_MM:
+      return "mm";
+    case NIFTI_UNITS_MICRON:
+      return "um";
+    default:
+      return "";
+  }
 }
 
 template <class Header>
@@ -124,6 +145,10 @@ void read_scaling(std::span<const std::byte> file, bool swap, const std::string&
   const double slope = load<decltype(Header::scl_slope)>(file, offsetof(Header, scl_slope), swap);
   const double intercept = load<decltype(Header::scl_inter)>(file, offsetof(Header, scl_inter), swap);
   if (slope == 0) return;  // the format's way to say "none"
+  if (std::isnan(slope)) {
+    h.notes.push_back("scl_slope is NaN and taken as none");  // some writers leave it so where they mean none
+    return;
+  }
   if (!std::isfinite(slope) || !std::isfinite(intercept))
     throw InputError(name + ": scl_slope or scl_inter is not finite; 0 means none");
   h.slope = slope;
@@ -147,11 +172,26 @@ NiftiHeader read(std::span<const std::byte> file, bool swap, nifti_image* (*to_i
   if (image->iname_offset < static_cast<std::int64_t>(sizeof(Header)))
     throw InputError(name + ": vox_offset is " + std::to_string(image->iname_offset) + ", inside the header");
   h.voxel_offset = static_cast<std::uint64_t>(image->iname_offset);
-  h.to_world = read_affine(*image, name, h.notes);
+  h.length_unit = read_unit(image->xyz_units);
+  read_affine(*image, name, h);
   return h;
 }
 
 }  // namespace
+
+bool has_magic(std::span<const std::byte> start) {
+  for (const bool swap : {false, true}) {
+    for (const int version : {1, 2}) {
+      const std::size_t magic = magic_of_version(version);
+      if (start.size() < magic + 4 ||
+          load<std::int32_t>(start, 0, swap) != static_cast<std::int32_t>(size_of_version(version)))
+        continue;
+      const auto equals = [&](const char* word) { return std::memcmp(start.data() + magic, word, 4) == 0; };
+      if (version == 1 ? equals("n+1") || equals("ni1") : equals("n+2") || equals("ni2")) return true;
+    }
+  }
+  return false;
+}
 
 NiftiHeader read_header(std::span<const std::byte> file, const std::string& name) {
   const Layout layout = read_layout(file, name);

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <map>
 
 #include "framework/interfaces/error.h"
-#include "plugins/data/nrrd/nrrd_text.h"
+#include "framework/scene/data_files.h"
+#include "plugins/data/nrrd/nrrd_geometry.h"
 
 namespace dvrlab::nrrd {
 namespace {
-
-std::string lower(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return s;
-}
 
 SourceType read_type(const NrrdText& text) {
   using enum SourceType;
@@ -58,122 +53,108 @@ SourceType read_type(const NrrdText& text) {
                                                        {"uint64_t", u64},
                                                        {"float", f32},
                                                        {"double", f64}};
-  const std::string name = lower(text.require("type"));
+  const std::string name = lower_case(text.require("type"));
   const auto found = types.find(name);
   if (found == types.end())
-    text.fail("type", "\"" + name + "\" is no number type; integers of 8 to 64 bits, float and double are read");
+    text.fail("type", quoted(name) + " is no number type; integers of 8 to 64 bits, float and double are read");
   return found->second;
 }
 
-// Three axes in space, one number each.
-std::array<long long, 3> read_dims(const NrrdText& text) {
-  const long long dimension = text.integers("dimension", 1)[0];
-  if (dimension != 3)
-    text.fail("dimension", "is " + std::to_string(dimension) +
-                               "; only 3-D scalar volumes are read: cut out one volume or one component first");
-  for (const std::string& kind : text.words("kinds")) {
-    const std::string k = lower(kind);
-    if (k != "domain" && k != "space" && k != "none" && k != "???")
-      text.fail("kinds", "an axis of kind \"" + kind + "\" does not lie in space; only 3-D scalar volumes are read");
-  }
-  const auto sizes = text.integers("sizes", 3);
-  return {sizes[0], sizes[1], sizes[2]};
+Encoding read_encoding(const NrrdText& text) {
+  static const std::map<std::string, Encoding> encodings{
+      {"raw", Encoding::raw},   {"gzip", Encoding::gzip},   {"gz", Encoding::gzip},
+      {"hex", Encoding::hex},   {"bzip2", Encoding::bzip2}, {"bz2", Encoding::bzip2},
+      {"txt", Encoding::ascii}, {"text", Encoding::ascii},  {"ascii", Encoding::ascii}};
+  const auto found = encodings.find(lower_case(text.require("encoding")));
+  if (found == encodings.end())
+    throw NotSupported(text.name() + ": encoding " + quoted(text.require("encoding")) +
+                       " is not read; store the file as raw, gzip, bzip2, ascii or hex");
+  return found->second;
 }
 
-bool read_gzip(const NrrdText& text) {
-  const std::string encoding = lower(text.require("encoding"));
-  if (encoding == "raw") return false;
-  if (encoding == "gzip" || encoding == "gz") return true;
-  throw NotSupported(text.name() + ": encoding \"" + encoding + "\" is not read; store the file as raw or gzip");
-}
-
-bool read_swap(const NrrdText& text, SourceType type) {
-  if (bytes_of(type) == 1) return false;
-  const std::string endian = lower(text.require("endian"));
-  if (endian != "little" && endian != "big") text.fail("endian", "is \"" + endian + "\"; must be little or big");
+bool read_swap(const NrrdText& text, SourceType type, Encoding encoding) {
+  if (bytes_of(type) == 1 || encoding == Encoding::ascii) return false;
+  const std::string endian = lower_case(text.require("endian"));
+  if (endian != "little" && endian != "big") text.fail("endian", "is " + quoted(endian) + "; must be little or big");
   return (endian == "little") != (std::endian::native == std::endian::little);
 }
 
-// Signs that turn the named space into RAS. Spaces without anatomy stay as they are.
-std::array<double, 3> read_space(const NrrdText& text, std::vector<std::string>& notes) {
-  if (const auto count = text.find("space dimension"); count && *count != "3")
-    text.fail("space dimension", "is " + *count + "; the space of a volume has 3");
-  const std::string space = lower(text.find("space").value_or(""));
-  if (space == "left-posterior-superior" || space == "lps") {
-    notes.push_back("world frame: RAS, the file's LPS coordinates with x and y negated");
-    return {-1, -1, 1};
+// "one.raw", "LIST [axes]" or "slice%03d.raw first last step [axes]".
+DataFiles read_data_files(const NrrdText& text, const GridFile& file) {
+  const std::vector<std::string> words = text.words("data file");
+  const bool list = words[0] == "LIST", pattern = text.require("data file").find('%') != std::string::npos;
+  if (!list && !pattern) return {{text.require("data file")}, 3};
+  const auto number = [&](std::size_t i) {
+    const auto x = parse_number<long long>(words[i]);
+    if (!x) text.fail("data file", quoted(words[i]) + " is no whole number");
+    return *x;
+  };
+  const std::size_t fixed = list ? 1 : 4;
+  if (words.size() < fixed || words.size() > fixed + 1)
+    text.fail("data file",
+              list ? "must be \"LIST\", or \"LIST axes\", and one file name per line behind it"
+                   : "must be a pattern, the first and last number and the step, as in \"s%03d.raw 1 9 1\"");
+  DataFiles files{text.listed_files(), words.size() > fixed ? number(fixed) : 2};
+  if (files.axes < 1 || files.axes > 3)
+    text.fail("data file", "a file spans " + std::to_string(files.axes) + " axes; must be 1, 2 or 3");
+  if (pattern) {
+    long long slices = file.dims[2];
+    if (files.axes == 1) slices *= file.dims[1];
+    files.names = numbered_names(words[0], number(1), number(2), number(3), slices, text.name() + ": data file");
   }
-  if (space == "left-anterior-superior" || space == "las") {
-    notes.push_back("world frame: RAS, the file's LAS coordinates with x negated");
-    return {-1, 1, 1};
-  }
-  if (space == "right-anterior-superior" || space == "ras") return {1, 1, 1};
-  if (!space.empty() && space != "scanner-xyz" && space != "3d-right-handed" && space != "3d-left-handed")
-    text.fail("space", "\"" + space + "\" is no space of three dimensions");
-  notes.push_back("world frame: the file's own coordinates; it names no anatomical space");
-  return {1, 1, 1};
+  return files;
 }
 
-Affine read_affine(const NrrdText& text, std::vector<std::string>& notes) {
-  Affine a;
-  const auto directions = text.vectors("space directions", 3);
-  auto spacings = text.numbers("spacings", 3);
-  if (directions.empty() && spacings.empty()) notes.push_back("the file has no spacing: 1 along each axis");
-  if (!directions.empty() && !spacings.empty()) notes.push_back("`space directions` are used, `spacings` are not");
-  if (directions.empty() && (text.find("axis mins") || text.find("axis maxs")))
-    notes.push_back("`axis mins` and `axis maxs` are not used");
-  spacings.resize(3, 1.0);
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (std::isnan(spacings[c])) {
-      notes.push_back("an unknown spacing (nan) is taken as 1");
-      spacings[c] = 1;
-    }
-    for (std::size_t r = 0; r < 3; ++r)
-      a.m[3 * r + c] = directions.empty() ? (r == c ? spacings[c] : 0) : directions[c][r];
+std::span<const std::byte> without_lines(std::span<const std::byte> bytes, long long lines, const std::string& name) {
+  for (; lines > 0; --lines) {
+    const auto end = std::find(bytes.begin(), bytes.end(), std::byte{'\n'});
+    if (end == bytes.end()) throw InputError(name + ": `line skip` drops more lines than the file has");
+    bytes = bytes.subspan(static_cast<std::size_t>(end - bytes.begin()) + 1);
   }
-  if (const auto origin = text.vectors("space origin", text.find("space origin") ? 1 : 0); !origin.empty())
-    a.t = {origin[0][0], origin[0][1], origin[0][2]};
-  const auto sign = read_space(text, notes);
-  for (std::size_t r = 0; r < 3; ++r) {
-    if (sign[r] > 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) a.m[3 * r + c] = 0 - a.m[3 * r + c];  // 0 - x: no negative zero
-    a.t[r] = 0 - a.t[r];
+  return bytes;
+}
+
+// Lines are dropped before decompression, bytes after it; of text, both are characters of the file.
+void read_skips(const NrrdText& text, GridFile& file) {
+  const long long lines = text.integer("line skip", 0), bytes = text.integer("byte skip", 0);
+  const bool raw = file.encoding == Encoding::raw, in_text = file.encoding >= Encoding::ascii;
+  if (lines < 0) text.fail("line skip", "is negative");
+  if (bytes < (raw ? -1 : 0))
+    text.fail("byte skip", raw ? "is below -1" : "is negative; only raw data can be counted from the end");
+  const std::uint64_t share = stored_bytes(file) / file.parts.size();
+  for (FilePart& part : file.parts) {
+    part.bytes = without_lines(part.bytes, lines, file.name);
+    if (bytes < 0) part.bytes = last_bytes(part.bytes, share);
+    if (in_text) part.bytes = part.bytes.subspan(std::min(part.bytes.size(), static_cast<std::size_t>(bytes)));
   }
-  for (const double x : a.m)
-    if (!std::isfinite(x))
-      text.fail(directions.empty() ? "spacings" : "space directions", "holds a number that is not finite");
-  for (const double x : a.t)
-    if (!std::isfinite(x)) text.fail("space origin", "holds a number that is not finite");
-  return a;
+  file.skip = bytes < 0 || in_text ? 0 : static_cast<std::uint64_t>(bytes);
 }
 
 }  // namespace
 
-NrrdHeader read_header(std::span<const std::byte> file, const std::string& name) {
-  const NrrdText text(file, name);
-  NrrdHeader h;
-  h.type = read_type(text);
-  h.dims = read_dims(text);
-  grid_bytes(h.dims, bytes_of(h.type), name);
-  h.gzip = read_gzip(text);
-  h.swap = read_swap(text, h.type);
-  h.to_world = read_affine(text, h.notes);
-  h.header_size = text.end();
-  if (text.find("line skip")) h.line_skip = text.integers("line skip", 1)[0];
-  if (text.find("byte skip")) h.byte_skip = text.integers("byte skip", 1)[0];
-  if (h.line_skip < 0) text.fail("line skip", "is negative");
-  if (h.byte_skip < (h.gzip ? 0 : -1))
-    text.fail("byte skip", h.gzip ? "is negative; only raw data can be counted from the end" : "is below -1");
+GridFile open_nrrd(const std::string& name) {
+  GridFile file;
+  file.name = name;
+  file.header = MappedFile::open(name);
+  const NrrdText text(file.header->bytes(), name);
+  file.type = read_type(text);
+  const Axes axes = read_axes(text, file);
+  stored_bytes(file);  // refuses dimensions below 2 and beyond all memory
+  file.encoding = read_encoding(text);
+  file.swap = read_swap(text, file.type, file.encoding);
+  read_geometry(text, axes, file);
   if (text.find("old min") || text.find("old max"))
-    h.notes.push_back("`old min` and `old max` are not applied: values are the stored numbers");
-  if (const auto data_file = text.find("data file")) {
-    h.data_file = text.require("data file");
-    if (h.data_file.starts_with("LIST") || h.data_file.find('%') != std::string::npos)
-      throw NotSupported(name + ": the voxels lie in several files; join them into one (unu save)");
-  } else if (!text.ended()) {
+    file.notes.push_back("`old min` and `old max` are not applied: values are the stored numbers");
+  if (text.find("data file")) {
+    text.require("data file");
+    file.parts = open_data_files(read_data_files(text, file), file.dims, name);
+  } else if (text.ended()) {
+    file.parts = {{file.header, file.header->bytes().subspan(text.end())}};
+  } else {
     throw InputError(name + ": has neither a \"data file\" nor voxels behind its header");
   }
-  return h;
+  read_skips(text, file);
+  return file;
 }
 
 }  // namespace dvrlab::nrrd

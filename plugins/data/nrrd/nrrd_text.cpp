@@ -1,8 +1,7 @@
 #include "plugins/data/nrrd/nrrd_text.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "framework/interfaces/error.h"
@@ -45,32 +44,9 @@ const std::vector<std::string> known_fields{"axis maxs",
                                             "type",
                                             "units"};
 
-std::string squeezed(const std::string& field) {
-  std::string out;
-  for (const char c : field)
-    if (c != ' ' && c != '\t') out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
-std::string trimmed(const std::string& s) {
-  const auto first = s.find_first_not_of(" \t");
-  return first == std::string::npos ? "" : s.substr(first, s.find_last_not_of(" \t") - first + 1);
-}
-
-std::string quoted(const std::string& s) { return '"' + s + '"'; }
-
-template <class T>
-std::optional<T> parse(const std::string& word) {
-  T x{};
-  const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(first, word.data() + word.size(), x);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return x;
-}
-
 }  // namespace
 
-NrrdText::NrrdText(std::span<const std::byte> file, const std::string& name) : name_(name) {
+NrrdText::NrrdText(std::span<const std::byte> file, const std::string& name) : HeaderFields(name) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), std::min(file.size(), longest_header));
   if (!text.starts_with("NRRD000")) throw InputError(name + ": is no NRRD file; its first bytes are not \"NRRD000\"");
   int number = 1;
@@ -89,98 +65,68 @@ NrrdText::NrrdText(std::span<const std::byte> file, const std::string& name) : n
 }
 
 void NrrdText::add_line(const std::string& line, int number) {
-  const std::string where = name_ + ": line " + std::to_string(number);
+  const std::string where = name() + ": line " + std::to_string(number);
+  if (listing_) return listed_.push_back(trimmed(line));
   if (line.starts_with('#')) return;
   const std::size_t colon = line.find(':');
   if (colon == std::string::npos) {
     const bool readable = std::all_of(line.begin(), line.end(), [](unsigned char c) { return c >= 32 || c == '\t'; });
-    throw InputError(where + (readable ? " is no field \"name: value\": \"" + line.substr(0, 60) + "\""
+    throw InputError(where + (readable ? " is no field \"name: value\": " + quoted(line)
                                        : " is binary; an empty line must separate the header from the voxels"));
   }
   if (line.compare(colon, 2, ":=") == 0) return;  // key/value pair
-  const std::string field = line.substr(0, colon);
-  const auto known = [&](const std::string& k) { return squeezed(k) == squeezed(field); };
+  const std::string field = line.substr(0, colon), text = trimmed(line.substr(colon + 1));
+  const auto known = [&](const std::string& k) { return field_key(k) == field_key(field); };
   if (std::none_of(known_fields.begin(), known_fields.end(), known)) {
     const std::string nearest = nearest_name(field, known_fields);
-    throw InputError(where + ": the format has no field \"" + field.substr(0, 60) + "\"" +
-                     (nearest.empty() ? "" : ", the nearest is \"" + nearest + "\"") +
+    throw InputError(where + ": the format has no field " + quoted(field) +
+                     (nearest.empty() ? "" : ", the nearest is " + quoted(nearest)) +
                      "; a key of your own is written \"key:=value\"");
   }
-  if (!fields_.emplace(squeezed(field), Line{trimmed(line.substr(colon + 1)), number}).second)
-    throw InputError(where + ": the field \"" + field + "\" stands twice");
+  add(field, text, number);
+  listing_ = field_key(field) == "datafile" && (text == "LIST" || text.starts_with("LIST "));
 }
 
-std::optional<std::string> NrrdText::find(const std::string& field) const {
-  const auto found = fields_.find(squeezed(field));
-  if (found == fields_.end()) return std::nullopt;
-  return found->second.text;
-}
-
-std::string NrrdText::require(const std::string& field) const {
-  const auto text = find(field);
-  if (!text || text->empty()) throw InputError(name_ + ": the header lacks the field \"" + field + "\"");
-  return *text;
-}
-
-std::vector<std::string> NrrdText::words(const std::string& field) const {
-  std::istringstream in(find(field).value_or(""));
-  std::vector<std::string> out;
-  for (std::string word; in >> word;) out.push_back(word);
-  return out;
-}
-
-std::vector<long long> NrrdText::integers(const std::string& field, std::size_t count) const {
-  require(field);
-  std::vector<long long> out;
-  for (const std::string& word : words(field)) {
-    const auto x = parse<long long>(word);
-    if (!x) fail(field, quoted(word) + " is no whole number");
-    out.push_back(*x);
-  }
-  if (out.size() != count) fail(field, "has " + std::to_string(out.size()) + " numbers, not " + std::to_string(count));
-  return out;
-}
-
-std::vector<double> NrrdText::numbers(const std::string& field, std::size_t count) const {
-  std::vector<double> out;
-  if (!find(field)) return out;
-  for (const std::string& word : words(field)) {
-    const auto x = parse<double>(word);
-    if (!x) fail(field, quoted(word) + " is no number");
-    out.push_back(*x);
-  }
-  if (out.size() != count) fail(field, "has " + std::to_string(out.size()) + " numbers, not " + std::to_string(count));
-  return out;
-}
-
-std::vector<std::vector<double>> NrrdText::vectors(const std::string& field, std::size_t count) const {
-  std::vector<std::vector<double>> out;
+std::vector<std::optional<Vector3>> NrrdText::vectors(const std::string& field, std::size_t count) const {
+  std::vector<std::optional<Vector3>> out;
   const auto text = find(field);
   if (!text) return out;
   for (std::size_t i = text->find_first_not_of(" \t"); i < text->size(); i = text->find_first_not_of(" \t", i)) {
+    if (text->compare(i, 4, "none") == 0) {
+      out.push_back(std::nullopt);
+      i += 4;
+      continue;
+    }
     const std::size_t close = text->find(')', i);
     if ((*text)[i] != '(' || close == std::string::npos)
-      fail(field, quoted(text->substr(i, 60)) + " is no vector \"(x,y,z)\"; each axis of a volume has one");
+      fail(field, quoted(text->substr(i)) + " is no vector \"(x,y,z)\"; each axis of a volume has one");
     std::istringstream inside(text->substr(i + 1, close - i - 1));
     std::vector<double> v;
     for (std::string word; std::getline(inside, word, ',');) {
-      const auto x = parse<double>(trimmed(word));
+      const auto x = parse_number<double>(trimmed(word));
       if (!x) fail(field, quoted(word) + " is no number");
+      if (!std::isfinite(*x)) fail(field, "holds a number that is not finite");
       v.push_back(*x);
     }
     if (v.size() != 3)
       fail(field, "a vector has " + std::to_string(v.size()) + " components; the space of a volume has 3");
-    out.push_back(v);
+    out.push_back(Vector3{v[0], v[1], v[2]});
     i = close + 1;
   }
   if (out.size() != count) fail(field, "has " + std::to_string(out.size()) + " vectors, not " + std::to_string(count));
   return out;
 }
 
-void NrrdText::fail(const std::string& field, const std::string& what) const {
-  const auto found = fields_.find(squeezed(field));
-  const std::string line = found == fields_.end() ? "" : "line " + std::to_string(found->second.number) + ", ";
-  throw InputError(name_ + ": " + line + "field \"" + field + "\": " + what);
+std::vector<std::string> NrrdText::quoted_texts(const std::string& field) const {
+  std::vector<std::string> out;
+  const std::string text = find(field).value_or("");
+  for (std::size_t open = text.find('"'); open != std::string::npos;) {
+    const std::size_t close = text.find('"', open + 1);
+    if (close == std::string::npos) fail(field, "a text has no closing quote");
+    out.push_back(text.substr(open + 1, close - open - 1));
+    open = text.find('"', close + 1);
+  }
+  return out;
 }
 
 }  // namespace dvrlab::nrrd

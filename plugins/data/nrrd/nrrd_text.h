@@ -2,52 +2,38 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "framework/interfaces/parameter_set.h"
+#include "framework/scene/header_fields.h"
+
 namespace dvrlab::nrrd {
 
-/// Fields by name, lower case and without blanks ("spacedirections"): the names that the format allows, each once.
-/// Comments and key/value pairs are dropped. Every error names the file, and the line where there is one.
-class NrrdText {
+/// The fields that the format allows, each once; comments and key/value pairs are dropped. The lines behind
+/// "data file: LIST" are the files' names.
+class NrrdText : public HeaderFields {
  public:
   /// Throws InputError for another magic, a line that is no field, an unknown or repeated field.
   NrrdText(std::span<const std::byte> file, const std::string& name);
 
-  /// The field's text; nullopt when the header lacks it.
-  std::optional<std::string> find(const std::string& field) const;
-  /// Throws InputError when the header lacks it. `field` is the name as the format writes it ("data file").
-  std::string require(const std::string& field) const;
-  /// `count` whole numbers.
-  std::vector<long long> integers(const std::string& field, std::size_t count) const;
-  /// `count` numbers, "nan" allowed; empty when the header lacks the field.
-  std::vector<double> numbers(const std::string& field, std::size_t count) const;
-  /// `count` vectors "(x,y,z)"; empty when the header lacks the field. Throws InputError for "none".
-  std::vector<std::vector<double>> vectors(const std::string& field, std::size_t count) const;
-  /// Blank-separated words; empty when the header lacks the field.
-  std::vector<std::string> words(const std::string& field) const;
+  /// `count` vectors "(x,y,z)", nullopt for an axis with "none"; empty when the header lacks the field.
+  std::vector<std::optional<Vector3>> vectors(const std::string& field, std::size_t count) const;
+  /// Texts in double quotes; empty when the header lacks the field.
+  std::vector<std::string> quoted_texts(const std::string& field) const;
 
-  /// "file: line 7 (sizes): " in front of `what`.
-  [[noreturn]] void fail(const std::string& field, const std::string& what) const;
-
-  const std::string& name() const { return name_; }
+  const std::vector<std::string>& listed_files() const { return listed_; }
   /// True when an empty line ends the header: voxels may follow at end().
   bool ended() const { return ended_; }
   std::size_t end() const { return end_; }
 
  private:
-  struct Line {
-    std::string text;
-    int number;
-  };
   void add_line(const std::string& line, int number);
-  std::map<std::string, Line> fields_;
-  std::string name_;
+  std::vector<std::string> listed_;
   std::size_t end_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, listing_ = false;
 };
 
 }  // namespace dvrlab::nrrd

@@ -1,0 +1,23 @@
+#include "backends/opengl/limits.h"
+
+#include <algorithm>
+
+namespace dvrlab {
+
+std::int64_t gl_limit(const GlFunctions& gl, GLenum name) {
+  GLint64 value = 0;
+  gl.GetInteger64v(name, &value);
+  return value;
+}
+
+ShaderLimits shader_limits(const GlFunctions& gl) {
+  ShaderLimits limits;
+  limits.target = ShaderTarget::opengl;
+  limits.buffer_range = std::uint64_t(gl_limit(gl, GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
+  limits.uniform_range = std::uint64_t(gl_limit(gl, GL_MAX_UNIFORM_BLOCK_SIZE));
+  limits.storage_buffers = int(std::min(gl_limit(gl, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS),
+                                        gl_limit(gl, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)));
+  return limits;
+}
+
+}  // namespace dvrlab

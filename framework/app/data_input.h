@@ -1,0 +1,28 @@
+// What a command line names: a config, or data without one.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "framework/config/document.h"
+#include "framework/interfaces/field.h"
+#include "framework/plugin/registry.h"
+
+namespace dvrlab {
+
+/// True for a data file or folder, false for a config. Throws InputError when it is neither, or not there.
+bool names_data(const std::string& path, const Registry& registry);
+
+/// A document with nothing but the data section that reads `path`.
+ConfigDocument data_document(const std::string& path, const std::vector<std::string>& set, const Registry& registry);
+
+struct LoadedData {
+  std::string type;  // of the data section
+  std::shared_ptr<const Field> field;
+};
+
+/// Loads what the document's data section says; the rest of the document is not read. Throws InputError, or
+/// NotSupported when the memory is too small.
+LoadedData load_data(const ConfigDocument& document, const Registry& registry);
+
+}  // namespace dvrlab

@@ -1,0 +1,169 @@
+#include "framework/app/info_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "framework/report/byte_text.h"
+#include "framework/report/text_table.h"
+#include "framework/scene/orientation.h"
+#include "framework/scene/vector.h"
+
+namespace dvrlab {
+namespace {
+
+constexpr double quantiles[] = {0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999, 1};
+
+const char* type_text(VoxelType type) {
+  switch (type) {
+    case VoxelType::u8:
+      return "uint8";
+    case VoxelType::i8:
+      return "int8";
+    case VoxelType::u16:
+      return "uint16";
+    case VoxelType::i16:
+      return "int16";
+    case VoxelType::f32:
+      return "float32";
+  }
+  return "";
+}
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string by(const Vector3& v) { return number(v[0]) + " x " + number(v[1]) + " x " + number(v[2]); }
+std::string point(const Vector3& v) { return "(" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + ")"; }
+
+/// World lengths of the field's box along its own axes.
+Vector3 box_of(const Field& f) {
+  Vector3 box;
+  const auto axes = axis_directions(f);
+  for (std::size_t a = 0; a < 3; ++a) box[a] = axes[a].spacing * (f.hi[a] - f.lo[a]);
+  return box;
+}
+
+std::array<double, 2> range_of(const Field& f) {
+  const double a = f.slope * f.stored_min + f.intercept, b = f.slope * f.stored_max + f.intercept;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+std::string world_words(const Field& f) {
+  return f.anatomical
+             ? "of a patient: x to the right, y to the front, z up (RAS); the axes point to " + orientation_code(f)
+             : "no anatomy is known: the file's own axes";
+}
+
+/// Bars as long as the logarithm of the count: the background would hide the rest.
+std::string bars(const Histogram& all, int bins) {
+  constexpr double longest = 50;
+  const Histogram h = all.merged(static_cast<std::size_t>(bins));
+  const auto most = *std::max_element(h.count.begin(), h.count.end());
+  std::vector<std::vector<std::string>> rows = {{"value", "voxels", "share", "bars: logarithm of the count"}};
+  for (std::size_t b = 0; b < h.count.size(); ++b) {
+    const double length = longest * std::log1p(static_cast<double>(h.count[b])) / std::log1p(static_cast<double>(most));
+    char share[16];
+    std::snprintf(share, sizeof share, "%.2f %%",
+                  100.0 * static_cast<double>(h.count[b]) / static_cast<double>(h.total));
+    rows.push_back({number(h.value(b)), std::to_string(h.count[b]), share,
+                    std::string(static_cast<std::size_t>(std::lround(length)), '#')});
+  }
+  return text_table(rows);
+}
+
+}  // namespace
+
+InfoReport make_info(LoadedData data) {
+  InfoReport info;
+  info.grid = dynamic_cast<const GridField*>(data.field.get());
+  info.data = std::move(data);
+  if (info.grid != nullptr) info.histogram = histogram_of(*info.grid);
+  return info;
+}
+
+std::string info_text(const InfoReport& info, int bins) {
+  const Field& f = *info.data.field;
+  const std::string unit = f.length_unit.empty() ? "world units" : f.length_unit;
+  std::vector<std::vector<std::string>> rows = {{"reader", info.data.type}};
+  if (info.grid != nullptr) {
+    const auto& d = info.grid->dims;
+    rows.push_back({"grid", std::to_string(d[0]) + " x " + std::to_string(d[1]) + " x " + std::to_string(d[2]) +
+                                " grid points, " + std::to_string(info.grid->count()) + " voxels"});
+    rows.push_back({"stored as", std::string(type_text(info.grid->type)) + ", " + byte_text(info.grid->bytes())});
+  } else {
+    rows.push_back({"grid", "none: the field is evaluated at every sample (sampler " + f.sampler + ")"});
+  }
+  const auto range = range_of(f);
+  rows.push_back({"values", number(range[0]) + " to " + number(range[1])});
+  if (f.slope != 1 || f.intercept != 0)
+    rows.push_back({"scaling", "value = " + number(f.slope) + " * stored + " + number(f.intercept)});
+  const auto axes = axis_directions(f);
+  if (info.grid != nullptr) {
+    rows.push_back({"spacing", by({axes[0].spacing, axes[1].spacing, axes[2].spacing}) + " " + unit});
+  }
+  rows.push_back({"box", by(box_of(f)) + " " + unit + ", from the first to the last grid point"});
+  rows.push_back({"first point", point(f.to_world.point(f.lo)) + " in the world"});
+  rows.push_back({"world", world_words(f)});
+  for (int a = 0; a < 3; ++a)
+    rows.push_back({a == 0 ? "axes" : "", axis_words(axes[static_cast<std::size_t>(a)], a, f.anatomical)});
+  rows.push_back({"sha256", f.sha256.empty() ? "none: a formula" : f.sha256});
+  for (std::size_t n = 0; n < f.notes.size(); ++n) rows.push_back({n == 0 ? "notes" : "", f.notes[n]});
+  std::string text = f.source + "\n" + text_table(rows);
+  if (!info.histogram) return text;
+  const Histogram& h = *info.histogram;
+  std::vector<std::vector<std::string>> shares = {{"share of voxels"}, {"have at most"}};
+  for (double q : quantiles) {
+    shares[0].push_back(number(100 * q) + " %");
+    shares[1].push_back(number(h.quantile(q)));
+  }
+  return text + "\n" + text_table(shares) + "\n" + bars(h, bins);
+}
+
+nlohmann::ordered_json info_json(const InfoReport& info, int bins) {
+  using Json = nlohmann::ordered_json;
+  const Field& f = *info.data.field;
+  const auto& m = f.to_world.m;
+  Json axes = Json::array();
+  const auto directions = axis_directions(f);
+  for (int a = 0; a < 3; ++a) {
+    const AxisDirection& d = directions[static_cast<std::size_t>(a)];
+    axes.push_back({{"spacing", d.spacing},
+                    {"direction", d.direction},
+                    {"nearest", std::string(d.forwards ? "+" : "-") + "xyz"[d.world_axis]},
+                    {"angle_deg", d.angle_deg},
+                    {"words", axis_words(d, a, f.anatomical)}});
+  }
+  Json j = {{"source", f.source}, {"reader", info.data.type}, {"sampler", f.sampler}};
+  if (info.grid != nullptr) {
+    j["dims"] = info.grid->dims;
+    j["voxels"] = info.grid->count();
+    j["bytes"] = info.grid->bytes();
+    j["stored_type"] = type_text(info.grid->type);
+  }
+  j["slope"] = f.slope;
+  j["intercept"] = f.intercept;
+  j["value_range"] = range_of(f);
+  j["box"] = box_of(f);
+  j["length_unit"] = f.length_unit;
+  j["anatomical"] = f.anatomical;
+  if (f.anatomical) j["orientation"] = orientation_code(f);
+  j["axes"] = axes;
+  j["affine"] = Json::array();
+  for (std::size_t r = 0; r < 3; ++r) j["affine"].push_back({m[3 * r], m[3 * r + 1], m[3 * r + 2], f.to_world.t[r]});
+  j["sha256"] = f.sha256;
+  j["notes"] = f.notes;
+  if (!info.histogram) return j;
+  const Histogram& h = *info.histogram;
+  j["quantiles"] = Json::array();
+  for (double q : quantiles) j["quantiles"].push_back({{"share", q}, {"value", h.quantile(q)}});
+  const Histogram merged = h.merged(static_cast<std::size_t>(bins));
+  j["histogram"] = {
+      {"exact", h.exact}, {"first_bin_centre", merged.first}, {"bin_width", merged.step}, {"count", merged.count}};
+  return j;
+}
+
+}  // namespace dvrlab
