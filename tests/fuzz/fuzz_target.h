@@ -13,8 +13,8 @@ namespace dvrlab::fuzz {
 /// is thrown.
 void expect_result_or_error(const std::function<void()>& work);
 
-/// A file of this process in memory with these bytes; the same name at every call. Beside it lie the files of the folder
-/// `companions` where there is one: a format may need more than one file.
+/// A file of this process in memory with these bytes; the same name at every call. Beside it lie the files of the
+/// folder `companions` where there is one: a format may need more than one file.
 const std::string& input_file(const std::uint8_t* data, std::size_t size, const std::string& companions);
 
 }  // namespace dvrlab::fuzz
