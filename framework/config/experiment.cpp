@@ -7,12 +7,10 @@
 #include "framework/config/axes.h"
 #include "framework/config/case_trees.h"
 #include "framework/config/problems.h"
-#include "framework/config/resolve.h"
+#include "framework/config/resolve_planned.h"
 #include "framework/config/views.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
-#include "framework/interfaces/field.h"
-#include "framework/scene/scene.h"
 
 namespace dvrlab {
 namespace {
@@ -134,7 +132,7 @@ class Planner {
       c.id = unique_id(words.empty() ? "case" : join_words(words, ","));
       c.first_variant = first;
       c.references = references;
-      resolve(trees_.of_case(choice, problems_), c, words.empty() ? document_.name : document_.name + "." + c.id);
+      resolve(trees_.of_case(choice, problems_), words.empty() ? document_.name : document_.name + "." + c.id, c);
       experiment_.cases.push_back(std::move(c));
     }
   }
@@ -160,7 +158,7 @@ class Planner {
         known = references_.emplace(key, experiment_.cases.size()).first;
         c.id = unique_id(key);
         c.first_variant = experiment_.cases.size();
-        resolve(trees_.of_reference(choice, name, problems_), c, document_.name + "." + c.id);
+        resolve(trees_.of_reference(choice, name, problems_), document_.name + "." + c.id, c);
         experiment_.cases.push_back(std::move(c));
       }
       found.emplace_back(name, known->second);
@@ -168,49 +166,9 @@ class Planner {
     return found;
   }
 
-  void resolve(const ConfigTree& tree, PlannedCase& c, const std::string& name) {
-    Problems problems;
-    refuse_open_views(tree, c, problems);
-    c.resolved = resolve_case(tree, document_.base_folder, registry_, problems);
+  void resolve(const ConfigTree& tree, const std::string& name, PlannedCase& c) {
+    resolve_planned(tree, document_.base_folder, registry_, c, problems_);
     c.resolved.config["name"] = name;
-    if (problems.empty()) check(tree, c.resolved, problems);
-    problems_.add(problems);
-  }
-
-  /// A case is one image: no orbit is left whose view is null.
-  static void refuse_open_views(const ConfigTree& tree, const PlannedCase& c, Problems& problems) {
-    const std::size_t views = asked_views(tree);
-    if (views == 0) return;
-    problems.add(tree.where("camera") + ": " +
-                 (c.reference_name.empty() ? "the values of a variant axis show one image"
-                                           : "the reference '" + c.reference_name + "' is one image") +
-                 ", this orbit has " + std::to_string(views) +
-                 (c.reference_name.empty() ? "; give the index of a view"
-                                           : "; give the index of a view, or change single keys of the camera"));
-  }
-
-  void check(const ConfigTree& tree, const ResolvedCase& c, Problems& problems) const {
-    std::set<std::string> metrics;
-    for (const Section& m : c.metrics) {
-      if (!metrics.insert(m.type).second)
-        problems.add(tree.where("metrics") + ": metric '" + m.type + "' is listed twice (keep one)");
-    }
-    try {
-      check_data_file(c);
-      check_case(c, registry_);
-    } catch (const InputError& e) {
-      problems.add(tree.located(e.what()));
-    } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of its cases when they run
-    }
-  }
-
-  /// Data that is missing is found before the first case runs, unless it may be missing.
-  static void check_data_file(const ResolvedCase& c) {
-    const nlohmann::json& data = c.config["data"];
-    if (data["optional"] == true || !data.contains("file") || !data["file"].is_string()) return;
-    LoadContext context;
-    context.base_folder = c.base_folder;
-    resolve_path(data["file"].get<std::string>(), context, "data.file");
   }
 
   std::string unique_id(const std::string& text) {

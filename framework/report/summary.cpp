@@ -1,19 +1,12 @@
 #include "framework/report/summary.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "framework/report/text_table.h"
-#include "framework/report/view_statistics.h"
+#include "framework/report/view_report.h"
 
 namespace dvrlab {
 namespace {
-
-std::string short_number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
 
 constexpr std::size_t most_rows = 100;
 
@@ -66,46 +59,6 @@ Comparisons with_references(const RunSummary& s) {
   return c;
 }
 
-std::string name_of(const ViewRow& row) {
-  std::string text;
-  for (const AxisChoice& c : row.choices) text += (text.empty() ? "" : ",") + c.key + "=" + c.label;
-  return text.empty() ? "case" : text;
-}
-
-/// Mean and worst over the views, of the first value of every metric.
-std::string view_text(const RunSummary& s) {
-  std::vector<std::vector<std::string>> table = {{"over views of", "metric", "mean", "worst", "in view", "views"}};
-  std::size_t rows = 0;
-  for (const ViewRow& row : view_rows(s.records)) {
-    if (!row.headline || ++rows > most_rows) continue;
-    table.push_back(
-        {name_of(row), row.metric + " against " + row.against, short_number(row.statistic.mean),
-         short_number(row.statistic.worst), row.worst_view,
-         std::to_string(row.views) + (row.views < row.planned ? " of " + std::to_string(row.planned) : std::string())});
-  }
-  if (rows == 0) return "";
-  return text_table(table) +
-         (rows > most_rows ? "(" + std::to_string(rows - most_rows) + " more rows: see views.csv)\n" : "");
-}
-
-nlohmann::ordered_json view_json(const RunSummary& s) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ViewRow& row : view_rows(s.records)) {
-    nlohmann::ordered_json choices = nlohmann::ordered_json::object();
-    for (const AxisChoice& c : row.choices) choices[c.key] = c.label;
-    list.push_back({{"choices", choices},
-                    {"against", row.against},
-                    {"metric", row.metric},
-                    {"mean", json_number(row.statistic.mean)},
-                    {"worst", json_number(row.statistic.worst)},
-                    {"worst_view", row.worst_view},
-                    {"views", row.views},
-                    {"planned", row.planned},
-                    {"perfect", row.statistic.perfect}});
-  }
-  return list;
-}
-
 }  // namespace
 
 int exit_code(const RunSummary& s) {
@@ -152,7 +105,7 @@ std::string summary_text(const RunSummary& s) {
     if (ids.size() > 1) text.append(" and ").append(std::to_string(ids.size() - 1)).append(" more");
     text += "]\n";
   }
-  text += view_text(s);
+  text += view_text(s.records, most_rows);
   const Worst worst = worst_variant(s);
   if (worst.record != nullptr) {
     text += "variants: " + std::to_string(worst.compared) + " compared bit for bit, worst difference " +
@@ -174,8 +127,8 @@ std::string summary_text(const RunSummary& s) {
 nlohmann::ordered_json summary_json(const RunSummary& s) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const CaseRecord& r : s.records) cases.push_back(case_json(r));
-  return {{"folder", s.folder},        {"stopped", s.stopped},  {"planned", s.planned},
-          {"exit_code", exit_code(s)}, {"views", view_json(s)}, {"cases", cases}};
+  return {{"folder", s.folder},        {"stopped", s.stopped},          {"planned", s.planned},
+          {"exit_code", exit_code(s)}, {"views", view_json(s.records)}, {"cases", cases}};
 }
 
 }  // namespace dvrlab

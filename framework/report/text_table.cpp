@@ -1,6 +1,7 @@
 #include "framework/report/text_table.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace dvrlab {
 
@@ -20,6 +21,12 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows) {
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
+  return text;
+}
+
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
   return text;
 }
 
