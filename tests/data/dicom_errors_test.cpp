@@ -163,9 +163,9 @@ TEST_F(DicomErrors, CutAndSpoiltFiles) {
       return load_error("dicom", {{"file", folder}});
     };
     ASSERT_EQ(outcome(whole), "") << syntax;
-    for (std::size_t n = 0; n < whole.size() - 12; n += 1 + n / 50)  // the last bytes may be padding
+    for (std::size_t n = 0; n < whole.size() - 12; n += 7 + n / 50)  // the last bytes may be padding
       EXPECT_NE(outcome(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(n))), "") << syntax << n;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 60; ++i) {
       Bytes spoilt = whole;
       spoilt[128 + random() % (spoilt.size() - 128)] = static_cast<char>(random());
       (outcome(spoilt).empty() ? read : refused) += 1;

@@ -1,18 +1,22 @@
 // Work with GDCM in a child process. Debian builds the library with its assertions: at a damaged file it ends the
-// process, and the codecs behind it print to stderr. In a child both become one error.
+// process, and the codecs behind it print to stderr and may call exit(). In a child all of it becomes one error.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace dvrlab::dicom {
 
-/// Runs `work` in a copy of this process; of what it does only shared memory stays. Rethrows its InputError or
-/// NotSupported here. Throws InputError, naming the file of the last reading(), when the child does not come to its
-/// end.
-void in_child(const std::function<void()>& work);
+using Bytes = std::vector<std::uint8_t>;
+
+/// Runs `work` in a copy of this process and returns what it returns; of what it does otherwise only shared memory
+/// stays. `memory`: bytes that it may take on top of this process's own; a damaged file can ask the library for more.
+/// Rethrows its InputError or NotSupported here. Throws InputError, naming the file of the last reading(), when the
+/// child does not come to its end.
+Bytes in_child(std::uint64_t memory, const std::function<Bytes()>& work);
 
 /// Says which file the library is about to see.
 void reading(const std::string& file);

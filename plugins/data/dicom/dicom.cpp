@@ -9,10 +9,10 @@
 #include "framework/scene/mapped_file.h"
 #include "framework/scene/sha256.h"
 #include "framework/scene/voxels.h"
-#include "plugins/data/dicom/child.h"
 #include "plugins/data/dicom/element_lengths.h"
 #include "plugins/data/dicom/pixels.h"
 #include "plugins/data/dicom/series.h"
+#include "plugins/data/dicom/series_headers.h"
 #include "plugins/data/dicom/stack.h"
 
 namespace dvrlab::dicom {
@@ -33,22 +33,16 @@ struct Opened {
   std::array<long long, 3> dims;
 };
 
-Opened read_headers(const ParameterSet& p, const LoadContext& context) {
+Opened open(const ParameterSet& p, const LoadContext& context) {
   Opened o;
   o.name = resolve_path(p.text("file"), context, p.path_of("file"));
-  const SeriesFiles series = find_series(o.name, p.text("series"), p.path_of("series"));
-  for (const std::string& file : series.file) o.images.push_back(read_header(file).value());
+  SeriesHeaders series = read_series_headers(o.name, p.text("series"), p.path_of("series"));
+  o.images = std::move(series.image);
   o.stack = make_stack(o.images);
   o.stack.notes.insert(o.stack.notes.begin(), series.notes.begin(), series.notes.end());
   o.dims = {o.stack.format.columns, o.stack.format.rows, static_cast<long long>(o.stack.slice.size())};
   grid_bytes(o.dims, sizeof(float), o.name);
   return o;
-}
-
-// First in a child: what GDCM survives there it survives here.
-Opened open(const ParameterSet& p, const LoadContext& context) {
-  in_child([&] { read_headers(p, context); });
-  return read_headers(p, context);
 }
 
 std::vector<std::string> notes_of(const Opened& o) {

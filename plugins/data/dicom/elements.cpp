@@ -2,6 +2,7 @@
 
 #include <gdcmSequenceOfItems.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -37,7 +38,10 @@ std::string Elements::text(const Key& key) const {
   if (!has(key)) return "";
   const gdcm::ByteValue* bytes = set_.GetDataElement(tag_of(key)).GetByteValue();
   if (!bytes || !bytes->GetPointer()) return "";
-  return std::string(trimmed({bytes->GetPointer(), static_cast<std::size_t>(bytes->GetLength())}));
+  std::string text(trimmed({bytes->GetPointer(), static_cast<std::size_t>(bytes->GetLength())}));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
+  return text;
 }
 
 int Elements::whole(const Key& key) const {

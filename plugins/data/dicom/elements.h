@@ -21,7 +21,8 @@ class Elements {
   Elements(gdcm::DataSet set, std::string name) : set_(std::move(set)), name_(std::move(name)) {}
 
   bool has(const Key& key) const;
-  /// Without padding; "" when the element is missing or empty.
+  /// Without padding; "" when the element is missing or empty. Characters beyond ASCII become "?": their character set
+  /// is not looked at.
   std::string text(const Key& key) const;
   /// A whole number of 16 bits (VR US). Throws InputError when it is missing.
   int whole(const Key& key) const;

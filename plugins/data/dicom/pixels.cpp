@@ -99,6 +99,18 @@ Outcome place_all(void* volume, bool scaled, const Stack& stack, const std::vect
   return outcome;
 }
 
+// A file, its frames as the codec holds them (JPEG 2000: two 32-bit numbers per pixel) and decoded.
+std::uint64_t largest_file(const std::vector<ImageHeader>& images) {
+  std::uint64_t largest = 0;
+  for (const ImageHeader& h : images)
+    largest = std::max(
+        largest, 2 * h.file_bytes + (h.format.compression.empty() ? 2 : 12) * h.format.plane_bytes() * h.slice.size());
+  return largest;
+}
+
+// The same with the library's own buffers, and what malloc holds back.
+std::uint64_t memory_for(const std::vector<ImageHeader>& images) { return 2 * largest_file(images) + (256 << 20); }
+
 VoxelType type_of(const Stack& stack) {
   if (!stack.one_scaling()) return VoxelType::f32;
   if (stack.format.allocated == 8) return stack.format.is_signed ? VoxelType::i8 : VoxelType::u8;
@@ -114,12 +126,13 @@ void set_pixels(GridField& grid, const Stack& stack, const std::vector<ImageHead
   const auto shared_outcome = shared_memory(sizeof(Outcome), grid.source);
   Outcome& outcome = *new (shared_outcome.get()) Outcome{};
   const bool wide = stack.format.allocated == 16, is_signed = stack.format.is_signed;
-  in_child([&] {
+  in_child(memory_for(images), [&] {
     const auto place = [&]<class T>(T) { outcome = place_all<T>(volume.get(), scaled, stack, images); };
     if (wide)
       is_signed ? place(std::int16_t{}) : place(std::uint16_t{});
     else
       is_signed ? place(std::int8_t{}) : place(std::uint8_t{});
+    return Bytes{};
   });
   grid.voxels = volume;
   grid.slope = scaled ? 1 : stack.slice.front().slope;
@@ -136,12 +149,9 @@ void set_pixels(GridField& grid, const Stack& stack, const std::vector<ImageHead
 }
 
 std::uint64_t set_pixels_bytes(const Stack& stack, const std::vector<ImageHeader>& images) {
-  std::uint64_t largest = 0;  // a file and its decoded frames
-  for (const ImageHeader& h : images)
-    largest = std::max(largest, h.file_bytes + 2 * h.format.plane_bytes() * h.slice.size());
-  return stack.slice.size() * stack.format.plane_bytes() / static_cast<std::uint64_t>(stack.format.allocated / 8) *
-             bytes_of(type_of(stack)) +
-         largest;
+  const std::uint64_t voxels = stack.slice.size() * static_cast<std::uint64_t>(stack.format.columns) *
+                               static_cast<std::uint64_t>(stack.format.rows);
+  return voxels * bytes_of(type_of(stack)) + largest_file(images);
 }
 
 }  // namespace dvrlab::dicom
