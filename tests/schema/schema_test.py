@@ -43,6 +43,7 @@ RIGHT = {
     "references and expectations": {"reference": {"fine": {"sampling.step": 0.1, "camera": {"fov_deg": 20}}},
                                     "expect": [{"metric": "psnr", "against": "fine", "at_least": 1,
                                                 "where": {"sampling.step": 1}}]},
+    "keys that vary together": {"axes": {"permutation": {"zip": [{"sampling.step": [1, 2], "seed": [1, 2]}]}}},
     "null nodes": {"optical_model.opacity": None, "optical_model.emission": "null"},
 }
 WRONG = {
@@ -70,6 +71,8 @@ WRONG = {
     "unknown key of an axis": {"axes": {"permutation": {"sampling.stepp": [1, 2]}}},
     "axis without values": {"axes": {"permutation": {"seed": []}}},
     "illegal value of an axis": {"axes": {"permutation": {"sampling.step": [1, -2]}}},
+    "unknown key of a zip": {"axes": {"permutation": {"zip": [{"sampling.stepp": [1, 2]}]}}},
+    "zip that is no list": {"axes": {"permutation": {"zip": {"seed": [1, 2]}}}},
     "unknown range": {"axes": {"permutation": {"sampling.step": {"log3": [1, 2]}}}},
     "unknown key of a reference": {"reference": {"fine": {"sampling.stepp": 1}}},
     "metrics of a reference": {"reference": {"fine": {"metrics": []}}},
