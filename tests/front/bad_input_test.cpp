@@ -22,8 +22,6 @@ struct BadInput {
   int exit_code = 2;
 };
 
-void PrintTo(const BadInput& b, std::ostream* out) { *out << b.name; }
-
 /// A config with a line of its own for what is wrong, line 9.
 std::string config(const std::string& line) { return small_config(",\n" + line + "\n"); }
 
