@@ -108,7 +108,7 @@ Bytes in_child(std::uint64_t memory, const std::function<Bytes()>& work) {
   const pid_t child = ::pipe2(ends, O_CLOEXEC) == 0 ? ::fork() : -1;
   if (child == 0) be_child(work, memory, ends[1], report);
   if (ends[1] >= 0) ::close(ends[1]);
-  const Bytes result = child > 0 ? read_all(ends[0]) : Bytes{};
+  Bytes result = child > 0 ? read_all(ends[0]) : Bytes{};
   if (ends[0] >= 0) ::close(ends[0]);
   if (child < 0) throw NotSupported("the DICOM reader cannot start a child process for GDCM");
   int status = 0;

@@ -19,7 +19,8 @@ gdcm::Tag tag_of(const Key& key) { return {key.group, key.element}; }
 std::string_view trimmed(std::string_view s) {
   const std::string_view padding(" \t\r\n\0", 5);
   const auto first = s.find_first_not_of(padding);
-  return first == s.npos ? std::string_view{} : s.substr(first, s.find_last_not_of(padding) - first + 1);
+  return first == std::string_view::npos ? std::string_view{}
+                                         : s.substr(first, s.find_last_not_of(padding) - first + 1);
 }
 
 }  // namespace

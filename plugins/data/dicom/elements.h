@@ -18,7 +18,7 @@ struct Key {
 class Elements {
  public:
   /// `name`: the file.
-  Elements(gdcm::DataSet set, std::string name) : set_(std::move(set)), name_(std::move(name)) {}
+  Elements(const gdcm::DataSet& set, std::string name) : set_(set), name_(std::move(name)) {}
 
   bool has(const Key& key) const;
   /// Without padding; "" when the element is missing or empty. Characters beyond ASCII become "?": their character set

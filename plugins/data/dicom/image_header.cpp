@@ -95,7 +95,7 @@ std::vector<double> place(const Elements& e, std::size_t frame, const Key& group
   for (const auto& [groups, index] : {std::pair{per_frame_groups, frame}, {shared_groups, std::size_t{0}}})
     if (const auto functional = e.item(groups, index))
       if (const auto inner = functional->item(group, 0))
-        if (const auto x = inner->decimals(key, count); !x.empty()) return x;
+        if (auto x = inner->decimals(key, count); !x.empty()) return x;
   return e.decimals(key, count);
 }
 
@@ -104,7 +104,7 @@ Slice read_slice(const Elements& e, int frame) {
   s.file = e.name();
   s.frame = frame;
   const auto numbers = [&](const Key& group, const Key& key, std::size_t count) {
-    const auto x = place(e, static_cast<std::size_t>(frame), group, key, count);
+    auto x = place(e, static_cast<std::size_t>(frame), group, key, count);
     if (x.empty()) e.fail(key, "is missing; without it the slice has no place in space");
     return x;
   };

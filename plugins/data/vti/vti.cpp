@@ -67,7 +67,8 @@ class Vti : public DataPlugin {
     std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
     const auto root = text.find("<VTKFile");
-    return end == ".vti" || (root != text.npos && text.find("\"ImageData\"", root) != text.npos);
+    return end == ".vti" ||
+           (root != std::string_view::npos && text.find("\"ImageData\"", root) != std::string_view::npos);
   }
 
   std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
