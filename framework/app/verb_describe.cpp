@@ -43,11 +43,16 @@ const char* affects_text(Affects a) {
   return a == Affects::pixels ? "pixels" : a == Affects::speed ? "speed" : "nothing";
 }
 
+/// With the choice that the key belongs to: "... (only with field=sinusoid)".
+std::string summary_of(const Parameter& p) {
+  return *p.only_with == '\0' ? p.summary : std::string(p.summary) + " (only with " + p.only_with + ")";
+}
+
 std::string key_table(const std::vector<Parameter>& keys) {
   std::vector<std::vector<std::string>> rows = {{"key", "unit", "default", "legal", "affects", "what it is"}};
   for (const Parameter& p : keys) {
     rows.push_back({p.name, *p.unit == '\0' ? "-" : p.unit, p.default_value == nullptr ? "(required)" : p.default_value,
-                    legal_text(p), affects_text(p.affects), p.summary});
+                    legal_text(p), affects_text(p.affects), summary_of(p)});
   }
   return text_table(rows);
 }
@@ -61,6 +66,7 @@ nlohmann::json key_list(const std::vector<Parameter>& keys) {
                     {"required", p.default_value == nullptr},
                     {"legal", legal_text(p)},
                     {"affects", affects_text(p.affects)},
+                    {"only_with", p.only_with},
                     {"summary", p.summary}});
   }
   return list;

@@ -135,6 +135,8 @@ TEST_F(Run, CommandLine) {
   expect_words(printed_, {"did you mean 'estimator'?"});
   EXPECT_EQ(command("describe camera.perspective"), 0);
   expect_words(printed_, {"fov_deg", "degree", "(0,180)"});
+  EXPECT_EQ(command("describe procedural"), 0);
+  expect_words(printed_, {"angular frequency. (only with field=sinusoid)"});
   EXPECT_EQ(command("describe dirct"), 2);
   EXPECT_EQ(command("validate " + config), 0);
   EXPECT_EQ(command("validate " + config + " --set sampling.step=-1"), 2);
