@@ -64,14 +64,16 @@ TEST_F(Completion, Fish) {
 
 TEST_F(Completion, Zsh) {
   DVRLAB_NEEDS("zsh", "zsh");
-  // An interactive zsh on a terminal of its own; Tab completes the only candidate.
+  // An interactive zsh on a terminal of its own; Tab completes the only candidate. Nothing is typed before the line
+  // editor says that it listens: until then the terminal itself takes Tab and Control-U.
   write("complete.zsh", R"(zmodload zsh/zpty
 zpty z "HOME=$PWD PATH=$PATH zsh -f -i"
-zpty -w z 'PROMPT="> "; autoload -U compinit; compinit -u -D; source <(dvrlab completion zsh); print READY''_NOW'
-zpty -r z seen '*READY_NOW*'
-for line in 'the first line meets a shell that is still starting' 'dvrlab doct' 'dvrlab render --outp' 'dvrlab describe absorp'; do
-  zpty -w -n z "$line"$'\t'"x"$'\C-u'"print END"$'_OF\n'
-  zpty -r z seen '*END_OF*END_OF*'
+zpty -w z 'autoload -U compinit; compinit -u -D; source <(dvrlab completion zsh)'
+zpty -w z 'zle-line-init() { print -n EDITOR"_LISTENS" }; zle -N zle-line-init'
+zpty -r z seen '*EDITOR_LISTENS*'
+for line in 'dvrlab doct' 'dvrlab render --outp' 'dvrlab describe absorp'; do
+  zpty -w -n z "$line"$'\t'"x"$'\C-u\n'
+  zpty -r z seen '*EDITOR_LISTENS*'
   print -r -- "$seen"
 done
 zpty -d z
