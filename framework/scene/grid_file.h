@@ -48,6 +48,21 @@ std::shared_ptr<const Field> load_grid_file(GridFile file, const LoadContext& co
 /// Bytes that load_grid_file allocates at the most.
 std::uint64_t grid_file_bytes(const GridFile& file);
 
+/// A reader whose whole work is a file's header.
+class GridFilePlugin : public DataPlugin {
+ public:
+  std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const final {
+    return load_grid_file(open(p, context), context);
+  }
+  std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext& context) const final {
+    return grid_file_bytes(open(p, context));
+  }
+
+ protected:
+  /// What the header says; throws InputError naming the file and what is wrong with it.
+  virtual GridFile open(const ParameterSet& p, const LoadContext& context) const = 0;
+};
+
 /// The grid's bytes as the file holds them; throws like grid_bytes().
 std::uint64_t stored_bytes(const GridFile& file);
 

@@ -12,11 +12,7 @@ constexpr Parameter parameters[] = {
      "The .mha file or the .mhd header, relative to the config's folder; ${NAME} reads the environment.",
      Affects::pixels, "{}", R"("../../../data/letter_f.mhd")"}};
 
-GridFile open(const ParameterSet& p, const LoadContext& context) {
-  return open_metaimage(resolve_path(p.text("file"), context, p.path_of("file")));
-}
-
-class MetaImage : public DataPlugin {
+class MetaImage : public GridFilePlugin {
  public:
   bool recognises(const std::string& path, std::span<const std::byte> start) const override {
     const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
@@ -25,12 +21,9 @@ class MetaImage : public DataPlugin {
     return magic || path.ends_with(".mha") || path.ends_with(".mhd");
   }
 
-  std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
-    return load_grid_file(open(p, context), context);
-  }
-
-  std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext& context) const override {
-    return grid_file_bytes(open(p, context));
+ private:
+  GridFile open(const ParameterSet& p, const LoadContext& context) const override {
+    return open_metaimage(resolve_path(p.text("file"), context, p.path_of("file")));
   }
 };
 

@@ -28,28 +28,7 @@ std::vector<std::byte> start_of(std::span<const std::byte> bytes, std::size_t wa
   return start;
 }
 
-GridFile open(const ParameterSet& p, const LoadContext& context) {
-  GridFile file;
-  file.name = resolve_path(p.text("file"), context, p.path_of("file"));
-  file.header = MappedFile::open(file.name);
-  const auto bytes = file.header->bytes();
-  NiftiHeader h = read_header(start_of(bytes, header_size, file.name), file.name);
-  file.type = h.type;
-  file.swap = h.swap;
-  file.dims = h.dims;
-  file.to_world = h.to_world;
-  file.anatomical = h.anatomical;
-  file.length_unit = h.length_unit;
-  file.slope = h.slope;
-  file.intercept = h.intercept;
-  file.notes = std::move(h.notes);
-  file.encoding = is_gzip(bytes) ? Encoding::gzip : Encoding::raw;
-  file.skip = h.voxel_offset;
-  file.parts = {{file.header, bytes}};
-  return file;
-}
-
-class Nifti : public DataPlugin {
+class Nifti : public GridFilePlugin {
  public:
   bool recognises(const std::string& path, std::span<const std::byte> start) const override {
     if (path.ends_with(".nii") || path.ends_with(".nii.gz")) return true;
@@ -60,12 +39,26 @@ class Nifti : public DataPlugin {
     }
   }
 
-  std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
-    return load_grid_file(open(p, context), context);
-  }
-
-  std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext& context) const override {
-    return grid_file_bytes(open(p, context));
+ private:
+  GridFile open(const ParameterSet& p, const LoadContext& context) const override {
+    GridFile file;
+    file.name = resolve_path(p.text("file"), context, p.path_of("file"));
+    file.header = MappedFile::open(file.name);
+    const auto bytes = file.header->bytes();
+    NiftiHeader h = read_header(start_of(bytes, header_size, file.name), file.name);
+    file.type = h.type;
+    file.swap = h.swap;
+    file.dims = h.dims;
+    file.to_world = h.to_world;
+    file.anatomical = h.anatomical;
+    file.length_unit = h.length_unit;
+    file.slope = h.slope;
+    file.intercept = h.intercept;
+    file.notes = std::move(h.notes);
+    file.encoding = is_gzip(bytes) ? Encoding::gzip : Encoding::raw;
+    file.skip = h.voxel_offset;
+    file.parts = {{file.header, bytes}};
+    return file;
   }
 };
 

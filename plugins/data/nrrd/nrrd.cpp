@@ -12,23 +12,16 @@ constexpr Parameter parameters[] = {
      "The .nrrd file or the .nhdr header, relative to the config's folder; ${NAME} reads the environment.",
      Affects::pixels, "{}", R"("../../../data/hydrogenatom.nrrd")"}};
 
-GridFile open(const ParameterSet& p, const LoadContext& context) {
-  return open_nrrd(resolve_path(p.text("file"), context, p.path_of("file")));
-}
-
-class Nrrd : public DataPlugin {
+class Nrrd : public GridFilePlugin {
  public:
   bool recognises(const std::string& path, std::span<const std::byte> start) const override {
     const bool magic = start.size() >= 7 && std::memcmp(start.data(), "NRRD000", 7) == 0;
     return magic || path.ends_with(".nrrd") || path.ends_with(".nhdr");
   }
 
-  std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
-    return load_grid_file(open(p, context), context);
-  }
-
-  std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext& context) const override {
-    return grid_file_bytes(open(p, context));
+ private:
+  GridFile open(const ParameterSet& p, const LoadContext& context) const override {
+    return open_nrrd(resolve_path(p.text("file"), context, p.path_of("file")));
   }
 };
 

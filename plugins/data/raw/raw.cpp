@@ -50,29 +50,7 @@ std::optional<std::uint64_t> skip_of(const ParameterSet& p) {
   return skip.get<std::uint64_t>();
 }
 
-GridFile open(const ParameterSet& p, const LoadContext& context) {
-  GridFile file;
-  file.name = resolve_path(p.text("file"), context, p.path_of("file"));
-  file.type = static_cast<SourceType>(p.choice_index("voxel_type"));
-  file.swap = (p.text("byte_order") == "little") != (std::endian::native == std::endian::little);
-  file.dims = dims_of(p);
-  const Vector3 spacing = p.vector3("spacing");
-  for (std::size_t a = 0; a < 3; ++a) file.to_world.m[4 * a] = spacing[a];
-  file.to_world.t = p.vector3("origin");
-  file.slope = p.number("slope");
-  file.intercept = p.number("intercept");
-  file.header = MappedFile::open(file.name);
-  const auto bytes = file.header->bytes();
-  file.skip = skip_of(p).value_or(0);
-  file.parts = {{file.header, bytes}};
-  if (const std::string wrong = wrong_size({file.dims, file.type, skip_of(p)}, bytes.size()); !wrong.empty())
-    throw InputError(
-        file.name + ": " +
-        (is_gzip(bytes) ? "is compressed by gzip: decompress it, or give it a NRRD header; as it is, " : "") + wrong);
-  return file;
-}
-
-class Raw : public DataPlugin {
+class Raw : public GridFilePlugin {
  public:
   void check(const ParameterSet& p) const override {
     grid_bytes(dims_of(p), bytes_of(static_cast<SourceType>(p.choice_index("voxel_type"))), p.path_of("size"));
@@ -81,12 +59,27 @@ class Raw : public DataPlugin {
       throw InputError(p.path_of("slope") + ": is 0, so every value would be the same; must be another number");
   }
 
-  std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
-    return load_grid_file(open(p, context), context);
-  }
-
-  std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext& context) const override {
-    return grid_file_bytes(open(p, context));
+ private:
+  GridFile open(const ParameterSet& p, const LoadContext& context) const override {
+    GridFile file;
+    file.name = resolve_path(p.text("file"), context, p.path_of("file"));
+    file.type = static_cast<SourceType>(p.choice_index("voxel_type"));
+    file.swap = (p.text("byte_order") == "little") != (std::endian::native == std::endian::little);
+    file.dims = dims_of(p);
+    const Vector3 spacing = p.vector3("spacing");
+    for (std::size_t a = 0; a < 3; ++a) file.to_world.m[4 * a] = spacing[a];
+    file.to_world.t = p.vector3("origin");
+    file.slope = p.number("slope");
+    file.intercept = p.number("intercept");
+    file.header = MappedFile::open(file.name);
+    const auto bytes = file.header->bytes();
+    file.skip = skip_of(p).value_or(0);
+    file.parts = {{file.header, bytes}};
+    if (const std::string wrong = wrong_size({file.dims, file.type, skip_of(p)}, bytes.size()); !wrong.empty())
+      throw InputError(
+          file.name + ": " +
+          (is_gzip(bytes) ? "is compressed by gzip: decompress it, or give it a NRRD header; as it is, " : "") + wrong);
+    return file;
   }
 };
 
