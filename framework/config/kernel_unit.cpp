@@ -1,5 +1,6 @@
 #include "framework/interfaces/kernel_unit.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -64,7 +65,8 @@ std::size_t bytes_of(Element e) {
 std::vector<Uniform> uniforms_of(const std::string& plugin, const ParameterSet& parameters) {
   std::vector<Uniform> uniforms;
   for (const Parameter& p : parameters.declared()) {
-    const std::string name = plugin + "_" + p.name;
+    std::string name = plugin + "_" + p.name;
+    std::replace(name.begin(), name.end(), '.', '_');
     switch (p.type) {
       case ParameterType::boolean:
         uniforms.push_back(Uniform::integer(name, parameters.boolean(p.name) ? 1 : 0));

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "framework/config/key_pointer.h"
 #include "framework/config/words.h"
 
 namespace dvrlab {
@@ -54,11 +55,9 @@ bool ParameterSet::is_null(const std::string& name) const { return value(name).i
 std::string ParameterSet::path_of(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
 
 const nlohmann::json& ParameterSet::value(const std::string& name) const {
-  const auto found = values_->find(name);
-  if (found == values_->end()) {
-    throw std::logic_error("parameter '" + path_of(name) + "' was not declared");
-  }
-  return *found;
+  const auto place = key_pointer(name);
+  if (!values_->contains(place)) throw std::logic_error("parameter '" + path_of(name) + "' was not declared");
+  return (*values_)[place];
 }
 
 }  // namespace dvrlab

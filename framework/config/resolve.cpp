@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/config/check_value.h"
+#include "framework/config/key_pointer.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
 
@@ -34,6 +35,32 @@ std::string unread_with(const Parameter& p, const nlohmann::json& resolved) {
   if (std::find(values.begin(), values.end(), found) != values.end()) return "";
   return "is read only where " + condition[0] + " is " + join_words(values, " or ") + "; here it is " + found +
          " (remove the key, or change " + condition[0] + ")";
+}
+
+/// The group of a declared name: "surface" of "surface.opacity"; "" for a plain key.
+std::string group_of(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string::npos ? "" : name.substr(0, dot);
+}
+
+/// The section with the keys of its groups at the top: {"surface": {"opacity": x}} -> {"surface.opacity": x}.
+ConfigJson flattened(const ConfigTree& tree, const std::string& path, const ConfigJson& section,
+                     const std::vector<Parameter>& keys, Problems& problems) {
+  ConfigJson flat = ConfigJson::object();
+  for (const auto& [key, value] : section.items()) {
+    std::vector<std::string> members;
+    for (const Parameter& p : keys)
+      if (group_of(p.name) == key) members.push_back(std::string(p.name).substr(key.size() + 1));
+    if (members.empty()) {
+      flat[key] = value;
+    } else if (value.is_object()) {
+      for (const auto& [member, x] : value.items()) flat[key + "." + member] = x;
+    } else {
+      problems.add(tree.where(child_path(path, key)) + ": found " + short_text(value) +
+                   "; must be a section with the keys " + join_words(members));
+    }
+  }
+  return flat;
 }
 
 class CaseResolver {
@@ -210,7 +237,8 @@ class CaseResolver {
 ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const Declaration& declaration,
                           Problems& problems, nlohmann::json& resolved) {
   const ConfigJson* written = path.empty() ? &tree.root : tree.find(path);
-  const ConfigJson& section = written != nullptr && written->is_object() ? *written : empty_section;
+  const ConfigJson section = flattened(
+      tree, path, written != nullptr && written->is_object() ? *written : empty_section, declaration.keys, problems);
   for (const auto& [key, value] : section.items()) {
     std::vector<std::string> legal = declaration.also;
     for (const Parameter& p : declaration.keys) legal.emplace_back(p.name);
@@ -222,7 +250,7 @@ ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const
     const std::string here = child_path(path, p.name);
     if (!section.contains(p.name)) {
       if (p.default_value != nullptr) {
-        resolved[p.name] = nlohmann::json::parse(p.default_value);
+        resolved[key_pointer(p.name)] = nlohmann::json::parse(p.default_value);
       } else {
         problems.add(tree.where(path.empty() ? p.name : path) + ": '" + p.name + "' is missing; must be " +
                      legal_text(p) + ": " + p.summary);
@@ -234,7 +262,7 @@ ParameterSet resolve_keys(const ConfigTree& tree, const std::string& path, const
     if (wrong.empty() && !fits(declaration, p, value))
       wrong = "found " + short_text(value) + "; must be " + legal_text(p);
     if (wrong.empty()) {
-      resolved[p.name] = stored_value(p, value);
+      resolved[key_pointer(p.name)] = stored_value(p, value);
     } else {
       problems.add(tree.where(here) + ": " + wrong);
     }

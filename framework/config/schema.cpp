@@ -95,10 +95,7 @@ class SchemaWriter {
     for (const SchemaBranch& b : branches) {
       const std::string name = b.type.empty() ? section : section + "." + b.type;
       define_branch(name, b, definitions_);
-      for (const Parameter& p : b.keys) {
-        keys[p.name]["anyOf"].push_back(refer(name + "/properties/" + p.name));
-        if (!source.list) paths_.known[section + "." + p.name] = refer("keys-" + section + "/properties/" + p.name);
-      }
+      for (const Parameter& p : b.keys) add_key(source, name, p.name, keys);
     }
     definitions_["keys-" + section] = {{"type", "object"}, {"properties", keys}, {"additionalProperties", false}};
     if (branches.size() != 1 || !branches[0].type.empty()) {
@@ -107,6 +104,20 @@ class SchemaWriter {
     }
     paths_.known[section] = whole(source, "");
     (source.list ? paths_.lists : paths_.sections).push_back(section);
+  }
+
+  /// A key of branch `name` among those of all branches, and as a path that an axis may vary.
+  void add_key(const SectionSource& source, const std::string& name, const std::string& key, Schema& keys) {
+    const std::size_t dot = key.find('.');
+    const std::string top = key.substr(0, dot), section = source.key;
+    const Schema here = refer(name + "/properties/" + top);
+    Schema& all = keys[top]["anyOf"];
+    if (std::find(all.begin(), all.end(), here) == all.end()) all.push_back(here);
+    if (source.list) return;
+    paths_.known[section + "." + top] = refer("keys-" + section + "/properties/" + top);
+    if (dot != std::string::npos)
+      paths_.known[section + "." + key]["anyOf"].push_back(
+          refer(name + "/properties/" + top + "/properties/" + key.substr(dot + 1)));
   }
 
   /// `type` chooses the branch. Without it: the default type, or keys that are merged over a section elsewhere.

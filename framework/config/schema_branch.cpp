@@ -25,13 +25,26 @@ void add_unread(const Parameter& p, const std::vector<Parameter>& keys, Schema& 
   }
 }
 
+/// A key, or a key of a group, which is a section of its own ("surface.opacity").
+void add_property(const Parameter& p, Schema& properties) {
+  const std::string name = p.name;
+  const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) {
+    properties[name] = value_schema(p);
+    return;
+  }
+  Schema& group = properties[name.substr(0, dot)];
+  if (group.is_null()) group = {{"type", "object"}, {"properties", Schema::object()}, {"additionalProperties", false}};
+  group["properties"][name.substr(dot + 1)] = value_schema(p);
+}
+
 }  // namespace
 
 void define_branch(const std::string& name, const SchemaBranch& b, Schema& definitions) {
   Schema properties = Schema::object(), required = Schema::array();
   if (!b.type.empty()) properties["type"] = {{"const", b.type}, {"description", b.summary}};
   for (const Parameter& p : b.keys) {
-    properties[p.name] = value_schema(p);
+    add_property(p, properties);
     if (p.default_value == nullptr) required.push_back(p.name);
   }
   Schema unread = Schema::array(), unread_by_default = Schema::array();

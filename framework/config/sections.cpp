@@ -141,8 +141,10 @@ std::vector<SectionType> declare() {
          R"({"anyOf":[{"enum":["data","type"]},{"type":"array","minItems":2,"maxItems":2,"items":{"type":"number"}}]})"},
         {"interpolation", choice, "", "\"extinction\"", "extinction|opacity",
          "What is linear between transfer function nodes.", pixels, "", "\"opacity\""},
-        {"opaque", choice, "", "\"cap\"", "cap", "What a fully opaque node becomes: a capped extinction, said aloud.",
-         pixels},
+        {"opaque", choice, "", "\"interval\"", "interval|dirac|cap",
+         "What fully opaque entries become: an opaque range of values, one table bin wide for an isolated entry; an "
+         "opaque isosurface for an isolated entry; or a capped extinction.",
+         pixels, R"({"optical_model":{"opacity":[[0.3,0],[0.5,1],[0.7,1],[0.9,0.2]]}})", "\"cap\""},
         {"length_unit", choice, "", "\"world\"", "world|voxel",
          "Unit of the model's lengths and extinctions; voxel: the smallest spacing.", pixels, "", "\"voxel\""}},
        {{"tf_range", null_or_range}, {"tf_domain_range", tf_domain_range}}},

@@ -20,6 +20,10 @@ struct EstimatorDeclaration {
   bool neighbours = false;
   /// The kernel integrates the transfer functions' intervals (medium_interval_at): a medium with tf "nodes" only.
   bool needs_nodes = false;
+  /// Bins of the medium's cumulative tables (medium_mean of framework/kernel/mean.kernel); 0: it does not use them.
+  int mean_bins = 0;
+  /// Its shading asks for the barycentre of the surfaces in a segment (mean_surface_place).
+  bool barycentre = false;
   /// The terms that it can integrate, Terms::bit(...) | ...
   unsigned handles = 0;
 };
@@ -33,7 +37,9 @@ struct EstimatorContext {
 
 class EstimatorPlugin : public Plugin {
  public:
-  virtual EstimatorDeclaration declaration() const = 0;
+  virtual EstimatorDeclaration declaration(const ParameterSet& parameters) const = 0;
+  /// Width, in the transfer functions' values, of the pulses of tau_s that stand for Dirac terms; 0: none do.
+  virtual double dirac_pulse(const ParameterSet& /*parameters*/) const { return 0; }
   /// Bytes that prepare() will allocate at the most: its tables, and what it needs to build them.
   virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/) const { return 0; }
   /// Tables and derived uniforms. The numeric parameters are added by the framework.

@@ -36,7 +36,7 @@ struct Buffer {
   std::string name;
   Element element = Element::f32;
   std::shared_ptr<const void> data;
-  std::uint64_t count = 0;  // elements
+  std::uint64_t count = 0;  // elements; 0: never read, and not bound
   std::uint64_t bytes() const { return count * bytes_of(element); }
 };
 

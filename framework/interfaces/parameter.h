@@ -21,7 +21,7 @@ enum class Affects { pixels, speed, nothing };
 
 /// One parameter. Plain data: all strings are literals owned by the plugin.
 struct Parameter {
-  const char* name;  // the JSON key
+  const char* name;  // the JSON key; "group.key" lies in a structure of its own: {"group": {"key": ...}}
   ParameterType type;
   const char* unit;           // "" when it has none
   const char* default_value;  // JSON text; nullptr when the key is required

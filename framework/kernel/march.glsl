@@ -1,5 +1,5 @@
-// The march of a GPU invocation: one ray. Holes: frame_ray, clip_ray (ray.kernel); stream_start, stream_next (steps.glsl
-// or walk.glsl, which call the sampler); segment_kernel (the estimator).
+// The march of a GPU invocation: one ray. Holes: frame_ray, clip_ray (ray.kernel); stream_start, stream_next, stream_open (steps.glsl
+// or walk.glsl, which call the sampler); segment_integrate (integrate.kernel, which calls the estimator).
 layout(local_size_x = 8, local_size_y = 8) in;
 
 void main() {
@@ -20,13 +20,15 @@ void main() {
     while (terminated == 0 && stream_next(q)) {
       vec3 c;
       spectral t;
-      segment_kernel(q, c, t);
+      segment_integrate(q, c, t);
       composite(c, t, color, trans);
       ++samples;
       terminated = ends_ray(trans) ? 1 : 0;
     }
   }
+  // Software GPUs end all loops of an invocation after 65535 rounds, without a word: said, never shown.
+  int cut = stream_L > 0.0 && terminated == 0 && stream_open() ? 1 : 0;
   int pixel = 2 * ((y - frame_band_y) * frame_width + x);
   dvr_out[pixel] = vec4(over_background(color, trans), uintBitsToFloat(uint(samples)));
-  dvr_out[pixel + 1] = vec4(rgb_of(trans), uintBitsToFloat(uint(stream_skipped * 2 + terminated)));
+  dvr_out[pixel + 1] = vec4(rgb_of(trans), uintBitsToFloat(uint(stream_skipped * 4 + cut * 2 + terminated)));
 }

@@ -16,6 +16,9 @@ void stream_start(int x, int y) {
   stream_n = steps_count(stream_L, stream_offset);
 }
 
+// True while segments are left: a march that ends with some left was cut by the driver.
+bool stream_open() { return stream_i < stream_n; }
+
 bool stream_next(inout segment q) {
   while (frame_skip != 0 && until_check == 0 && stream_i < stream_n) {
     int next = steps_leap(stream_i, stream_n, stream_L, stream_offset, stream_o, stream_d);

@@ -9,8 +9,11 @@
 //                                the world gradient at the current sample, continuous along the ray
 // The scalar is linear between two samples. A segment of length 0 counts as a gap.
 walk_state stream_walk;
+bool stream_walking = true;  // the ray is not through
 
 void stream_start(int x, int y) { walk_start(stream_o, stream_d, stream_L, stream_walk); }
+
+bool stream_open() { return stream_walking; }
 
 bool stream_next(inout segment q) {
   walk_state front = stream_walk;
@@ -32,5 +35,6 @@ bool stream_next(inout segment q) {
     q.g1 = walk_gradient(stream_o, stream_d, stream_walk);
     q.g = (q.g0 + q.g1) * 0.5;
   }
+  stream_walking = kind != 0;
   return kind == 1;
 }

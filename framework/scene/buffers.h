@@ -16,10 +16,10 @@ Buffer make_buffer(std::string name, Element element, std::vector<T> values, std
   return {std::move(name), element, std::shared_ptr<const void>(owner, owner->data()), count};
 }
 
-/// Groups of four floats; an empty list becomes one entry of zeros, since a binding needs memory.
+/// Groups of four floats. An empty list has no binding on a GPU; the cpu finds one entry of zeros.
 inline Buffer vec4_buffer(std::string name, std::vector<float> values) {
-  if (values.empty()) values.assign(4, 0.0f);
   const std::uint64_t count = values.size() / 4;
+  if (values.empty()) values.assign(4, 0.0f);
   return make_buffer(std::move(name), Element::vec4, std::move(values), count);
 }
 

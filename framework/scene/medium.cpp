@@ -39,6 +39,13 @@ bool zero_on(const Medium& m, double a, double b, int first, int last) {
 bool dirac_in(const Medium& m, double a, double b) {
   return std::any_of(m.dirac.begin(), m.dirac.end(), [&](const Dirac& d) { return d.v >= a && d.v <= b; });
 }
+
+bool lit(const OpaqueRange& o) { return o.S != OpaqueRange{}.S || o.W != OpaqueRange{}.W; }
+
+bool opaque_in(const Medium& m, double a, double b, bool only_lit) {
+  return std::any_of(m.opaque.begin(), m.opaque.end(),
+                     [&](const OpaqueRange& o) { return o.v0 <= b && o.v1 >= a && (!only_lit || lit(o)); });
+}
 }  // namespace
 
 std::string Terms::text() const {
@@ -79,12 +86,52 @@ Terms Medium::terms() const {
 }
 
 bool Medium::empty(double a, double b) const {
-  return zero_on(*this, a, b, 0, medium_columns) && !dirac_in(*this, a, b);
+  return zero_on(*this, a, b, 0, medium_columns) && !dirac_in(*this, a, b) && !opaque_in(*this, a, b, false);
 }
 
 bool Medium::unshaded(double a, double b) const {
   return zero_on(*this, a, b, column(Term::S_l, 0), column(Term::W_l, 2) + 1) &&
-         zero_on(*this, a, b, column(Term::S_s, 0), column(Term::W_s, 2) + 1) && !dirac_in(*this, a, b);
+         zero_on(*this, a, b, column(Term::S_s, 0), column(Term::W_s, 2) + 1) && !dirac_in(*this, a, b) &&
+         !opaque_in(*this, a, b, true);
+}
+
+bool Medium::shaded() const {
+  const Terms t = terms();
+  return t.has(Term::S_l) || t.has(Term::W_l) || t.has(Term::S_s) || t.has(Term::W_s) || t.dirac() ||
+         std::any_of(opaque.begin(), opaque.end(), lit);
+}
+
+Medium Medium::split_at(const std::vector<double>& borders) const {
+  Medium r = *this;
+  for (double v : borders) {
+    if (r.interval.empty()) break;
+    // The columns are constant outside: a border out there makes a constant interval.
+    const auto constant = [&](double v0, double v1, const MediumInterval& from, double t) {
+      MediumInterval i{v0, v1, {}};
+      for (std::size_t c = 0; c < medium_columns; ++c) i.c[c] = {value_of(from.c[c], t), 0, 0};
+      return i;
+    };
+    if (v < r.interval.front().v0) {
+      r.interval.insert(r.interval.begin(), constant(v, r.interval.front().v0, r.interval.front(), 0));
+    } else if (v > r.interval.back().v1) {
+      r.interval.push_back(constant(r.interval.back().v1, v, r.interval.back(), 1));
+    } else {
+      const auto whole = std::find_if(r.interval.begin(), r.interval.end(),
+                                      [&](const MediumInterval& i) { return v > i.v0 && v < i.v1; });
+      if (whole == r.interval.end()) continue;  // it is a border already
+      const MediumInterval i = *whole;
+      const double t = (v - i.v0) / (i.v1 - i.v0);
+      MediumInterval left{i.v0, v, {}}, right{v, i.v1, {}};
+      for (std::size_t c = 0; c < medium_columns; ++c) {
+        const auto& p = i.c[c];
+        left.c[c] = {p[0], p[1] * t, p[2] * t * t};
+        right.c[c] = {value_of(p, t), (p[1] + 2 * p[2] * t) * (1 - t), p[2] * (1 - t) * (1 - t)};
+      }
+      *whole = left;
+      r.interval.insert(r.interval.begin() + (whole - r.interval.begin()) + 1, right);
+    }
+  }
+  return r;
 }
 
 Medium Medium::rescaled(double slope, double intercept) const {
@@ -101,6 +148,14 @@ Medium Medium::rescaled(double slope, double intercept) const {
         for (double& x : i.c[std::size_t(column(t, ch))]) x *= std::abs(slope);
   }
   for (Dirac& d : r.dirac) d.v = (d.v - intercept) / slope;
+  for (OpaqueRange& o : r.opaque) {
+    o.v0 = (o.v0 - intercept) / slope;
+    o.v1 = (o.v1 - intercept) / slope;
+    if (slope < 0) {
+      std::swap(o.v0, o.v1);
+      for (auto* ends : {&o.P, &o.S, &o.W}) std::swap((*ends)[0], (*ends)[1]);
+    }
+  }
   if (slope < 0) {
     std::reverse(r.interval.begin(), r.interval.end());
     std::reverse(r.dirac.begin(), r.dirac.end());

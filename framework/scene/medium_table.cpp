@@ -11,31 +11,12 @@ namespace dvrlab {
 namespace {
 
 using Columns = std::array<double, medium_columns>;
-using Group = std::array<double, 4>;
 
 double col(const Columns& x, Term t, int c) { return x[std::size_t(column(t, c))]; }
 
-// The groups of an entry, in the order of medium.kernel. Linear in the columns, so it serves values and polynomials.
-std::vector<Group> groups_of(const Columns& x, const MediumTableOptions& o, bool emits, bool surfaces) {
-  const auto rgb = [&](Term t, double w) { return Group{col(x, t, 0), col(x, t, 1), col(x, t, 2), w}; };
-  if (o.full) {
-    std::vector<Group> g = {rgb(Term::tau_l, col(x, Term::tau_s, 0)), rgb(Term::S_l, col(x, Term::tau_s, 1)),
-                            rgb(Term::W_l, col(x, Term::tau_s, 2))};
-    if (emits) g.insert(g.end(), {rgb(Term::E, 0), rgb(Term::P, 0)});
-    if (surfaces) g.insert(g.end(), {rgb(Term::S_s, 0), rgb(Term::W_s, 0)});
-    return g;
-  }
-  Vector3 source;
-  for (int c = 0; c < 3; ++c)
-    source[std::size_t(c)] = col(x, Term::E, c) + col(x, Term::P, c) + (o.fold_shaded ? col(x, Term::S_l, c) : 0.0);
-  if (o.rgb) return {rgb(Term::tau_l, 0), Group{source[0], source[1], source[2], 0}};
-  return {Group{col(x, Term::tau_l, 0), source[0], source[1], source[2]}};
-}
-
-std::vector<float> table_values(const Medium& m, const MediumTableOptions& o, bool emits, bool surfaces) {
-  std::vector<std::vector<Group>> entry;
-  for (int e = 0; e < o.entries; ++e)
-    entry.push_back(groups_of(m.at(o.lo + (o.hi - o.lo) * e / (o.entries - 1)), o, emits, surfaces));
+std::vector<float> table_values(const Medium& m, const MediumTableOptions& o, const MediumLayout& layout) {
+  std::vector<std::vector<MediumGroup>> entry;
+  for (int e = 0; e < o.entries; ++e) entry.push_back(layout.groups(m.at(o.lo + (o.hi - o.lo) * e / (o.entries - 1))));
   std::vector<float> r;
   for (std::size_t e = 0; e < entry.size(); ++e) {
     const auto& next = entry[std::min(e + 1, entry.size() - 1)];
@@ -47,17 +28,17 @@ std::vector<float> table_values(const Medium& m, const MediumTableOptions& o, bo
   return r;
 }
 
-void add_nodes(const Medium& m, const MediumTableOptions& o, bool emits, bool surfaces, KernelUnit& unit) {
+void add_nodes(const Medium& m, const MediumLayout& layout, KernelUnit& unit) {
   std::size_t padded = 1;
   while (padded < m.interval.size()) padded *= 2;
   std::vector<float> node, poly;
   for (const MediumInterval& i : m.interval) {
     node.insert(node.end(), {float(i.v0), float(1.0 / (i.v1 - i.v0)), 0.0f, 0.0f});
-    std::array<std::vector<Group>, 3> power;
+    std::array<std::vector<MediumGroup>, 3> power;
     for (std::size_t p = 0; p < 3; ++p) {
       Columns x;
       for (std::size_t c = 0; c < medium_columns; ++c) x[c] = i.c[c][p];
-      power[p] = groups_of(x, o, emits, surfaces);
+      power[p] = layout.groups(x);
     }
     for (std::size_t g = 0; g < power[0].size(); ++g)
       for (const auto& p : power)
@@ -91,23 +72,44 @@ std::vector<int> prefix_sums(const MediumTableOptions& o, Test contributes) {
 
 }  // namespace
 
-void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& unit) {
+MediumLayout::MediumLayout(const Medium& medium, const MediumTableOptions& options) : options_(options) {
   const Terms terms = medium.terms();
-  const bool emits = o.full && (terms.has(Term::E) || terms.has(Term::P));
-  const bool surfaces = o.full && (terms.has(Term::tau_s) || terms.has(Term::S_s) || terms.has(Term::W_s));
-  const int groups = int(groups_of({}, o, emits, surfaces).size());
+  emits_ = options.full && (terms.has(Term::E) || terms.has(Term::P));
+  surfaces_ = options.full && terms.surfaces();
+}
+
+std::vector<MediumGroup> MediumLayout::groups(const Columns& x) const {
+  const auto rgb = [&](Term t, double w) { return MediumGroup{col(x, t, 0), col(x, t, 1), col(x, t, 2), w}; };
+  if (options_.full) {
+    std::vector<MediumGroup> g = {rgb(Term::tau_l, col(x, Term::tau_s, 0)), rgb(Term::S_l, col(x, Term::tau_s, 1)),
+                                  rgb(Term::W_l, col(x, Term::tau_s, 2))};
+    if (emits_) g.insert(g.end(), {rgb(Term::E, 0), rgb(Term::P, 0)});
+    if (surfaces_) g.insert(g.end(), {rgb(Term::S_s, 0), rgb(Term::W_s, 0)});
+    return g;
+  }
+  Vector3 source;
+  for (int c = 0; c < 3; ++c)
+    source[std::size_t(c)] =
+        col(x, Term::E, c) + col(x, Term::P, c) + (options_.fold_shaded ? col(x, Term::S_l, c) : 0.0);
+  if (options_.rgb) return {rgb(Term::tau_l, 0), MediumGroup{source[0], source[1], source[2], 0}};
+  return {MediumGroup{col(x, Term::tau_l, 0), source[0], source[1], source[2]}};
+}
+
+void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& unit) {
+  const MediumLayout layout(medium, o);
   unit.uniforms.insert(
       unit.uniforms.end(),
       {Uniform::constant_integer("medium_use_nodes", o.nodes ? 1 : 0),
-       Uniform::constant_integer("medium_groups", groups), Uniform::constant_integer("medium_emits", emits ? 1 : 0),
-       Uniform::constant_integer("medium_surfaces", surfaces ? 1 : 0), Uniform::real("medium_lo", o.lo),
+       Uniform::constant_integer("medium_groups", layout.count()),
+       Uniform::constant_integer("medium_emits", layout.emits() ? 1 : 0),
+       Uniform::constant_integer("medium_surfaces", layout.surfaces() ? 1 : 0), Uniform::real("medium_lo", o.lo),
        Uniform::real("medium_scale", (o.entries - 1) / (o.hi - o.lo)), Uniform::real("medium_last", o.entries - 1)});
   // The representation that is not in use keeps its binding with one empty entry.
   if (o.nodes) {
     unit.buffers.push_back(vec4_buffer("medium_table", {}));
-    add_nodes(medium, o, emits, surfaces, unit);
+    add_nodes(medium, layout, unit);
   } else {
-    unit.buffers.push_back(vec4_buffer("medium_table", table_values(medium, o, emits, surfaces)));
+    unit.buffers.push_back(vec4_buffer("medium_table", table_values(medium, o, layout)));
     unit.uniforms.push_back(Uniform::constant_integer("medium_node_step", 0));
     unit.buffers.push_back(vec4_buffer("medium_node", {}));
     unit.buffers.push_back(vec4_buffer("medium_node_poly", {}));

@@ -16,6 +16,23 @@ struct MediumTableOptions {
   bool fold_shaded = false;  // plain: the unlit medium's source is E + P + S_l (no local shading: k = 1, b = 0)
 };
 
+using MediumGroup = std::array<double, 4>;
+
+/// Which groups of four numbers an entry of the medium has: those of medium.kernel. Linear in the columns, so it serves
+/// values, means and polynomial coefficients alike.
+class MediumLayout {
+ public:
+  MediumLayout(const Medium& medium, const MediumTableOptions& options);
+  std::vector<MediumGroup> groups(const std::array<double, medium_columns>& columns) const;
+  bool emits() const { return emits_; }
+  bool surfaces() const { return surfaces_; }
+  int count() const { return static_cast<int>(groups({}).size()); }
+
+ private:
+  MediumTableOptions options_;
+  bool emits_, surfaces_;
+};
+
 /// Adds the uniforms medium_* and the buffers medium_table, medium_node, medium_node_poly, medium_shaded_sum.
 void add_medium(const Medium& medium, const MediumTableOptions& options, KernelUnit& unit);
 

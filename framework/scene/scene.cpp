@@ -9,8 +9,10 @@
 #include "framework/interfaces/transfer_function.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/camera.h"
+#include "framework/scene/discrete_surfaces.h"
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
+#include "framework/scene/mean_table.h"
 #include "framework/scene/medium_table.h"
 #include "framework/scene/tf_domain.h"
 #include "framework/scene/vector.h"
@@ -29,6 +31,12 @@ std::string sampler_of(const ResolvedCase& c, const Field& field) {
   return wanted.empty() ? field.sampler : wanted;
 }
 
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
 // The medium in values of tf_domain; `voxel` is the data's smallest spacing in world units.
 Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
                     std::vector<std::string>& notes) {
@@ -37,11 +45,17 @@ Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxe
   context.length_unit = p.text("length_unit") == "voxel" ? voxel : 1.0;
   context.opacity_interpolation = p.text("interpolation") == "opacity";
   context.linear_color = c.image.text("space") == "linear";
+  context.opaque = static_cast<ModelContext::Opaque>(p.choice_index("opaque"));
+  context.opaque_width = (value_max - value_min) / static_cast<double>(p.integer("tf_entries") - 1);
   context.value_min = value_min;
   context.value_max = value_max;
   context.notes = &notes;
-  return registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type")
-      .medium(p, context);
+  Medium medium =
+      registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
+  const double pulse = registry.get<EstimatorPlugin>("estimator", c.estimator.type).dirac_pulse(c.estimator.parameters);
+  if (pulse == 0 || medium.dirac.empty()) return medium;
+  notes.push_back("estimator: Dirac terms are approximated by pulses of width " + short_number(pulse));
+  return with_pulses(medium, pulse);
 }
 
 void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d) {
@@ -146,7 +160,8 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
   std::vector<std::string> notes;
   const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
   refuse_impossible(c, medium,
-                    registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type").declaration());
+                    registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
+                        .declaration(c.estimator.parameters));
   if (c.lights.size() > 4)
     throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
   if (c.top.text("precision") == "fast" &&
@@ -206,7 +221,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
       std::minmax({slope * field->stored_min + intercept, slope * field->stored_max + intercept});
   scene.medium = model_medium(c, registry, field->voxel, lowest, highest, scene.notes).rescaled(slope, intercept);
   const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
-  const EstimatorDeclaration declared = estimator.declaration();
+  const EstimatorDeclaration declared = estimator.declaration(c.estimator.parameters);
   refuse_impossible(c, scene.medium, declared);
 
   FrameJob& job = scene.job;
@@ -219,12 +234,12 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
 
   const Terms terms = scene.medium.terms();
   const LocalShading shading = local_shading(c, registry, *field, c.image.text("space") == "linear");
-  const bool surfaces = terms.has(Term::tau_s) || terms.has(Term::S_s) || terms.has(Term::W_s) || terms.dirac();
-  const bool shaded = terms.has(Term::S_l) || terms.has(Term::W_l);
+  const bool surfaces = terms.surfaces();
+  const bool shaded = scene.medium.shaded();
   if (shaded && shading.mode == LocalShading::Mode::none)
     scene.notes.emplace_back("optical_model: shaded, but there is no illumination pass: rendered unlit (k = 1, b = 0)");
   job.rgb = terms.rgb();
-  job.full = surfaces || shading.mode == LocalShading::Mode::prescribed ||
+  job.full = surfaces || terms.dirac() || shading.mode == LocalShading::Mode::prescribed ||
              (shaded && shading.mode != LocalShading::Mode::none);
   MediumTableOptions options = table_options(c, *field);
   options.rgb = job.rgb;
@@ -238,8 +253,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   add_sampling(c, scene.step, job.frame);
   add_skipping(sampling.boolean("skipping"), *field, scene.medium, options, job.frame);
   add_medium(scene.medium, options, job.frame);
+  add_discrete_surfaces(scene.medium, options.fold_shaded, job.frame);
+  add_means(scene.medium, options, declared.mean_bins, declared.barycentre && job.full, job.frame);
   add_shading(shading, std::abs(field->slope), job.frame);
-  const bool gradient = job.full && (shaded || surfaces) && shading.mode == LocalShading::Mode::blinn_phong;
+  const bool gradient = job.full && shaded && shading.mode == LocalShading::Mode::blinn_phong;
   job.frame.uniforms.insert(
       job.frame.uniforms.end(),
       {Uniform::constant_integer("frame_samples_ends", declared.samples == EstimatorDeclaration::Samples::ends ? 1 : 0),

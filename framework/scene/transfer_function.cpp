@@ -2,26 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace dvrlab {
 
 namespace {
-constexpr double opaque_depth = 16.6;  // math section 0: -ln 2^-24, the cap of an opaque node per standard length
-
-double capped_extinction(double alpha, double standard_length, bool& capped) {
-  const double depth = -std::log1p(-std::min(alpha, 1.0));
-  if (depth > opaque_depth) capped = true;
-  return std::min(depth, opaque_depth) / standard_length;
-}
-
-void note_cap(const std::string& name, double standard_length, std::vector<std::string>& notes) {
-  char text[160];
-  std::snprintf(text, sizeof(text), "opaque entries capped at extinction %.6g per world unit (16.6 / standard length)",
-                opaque_depth / standard_length);
-  notes.push_back(name + ": " + text);
-}
-
 Vector3 lerp(const Vector3& a, const Vector3& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
@@ -47,56 +31,11 @@ std::vector<double> Curve::breaks() const {
   return r;
 }
 
-Curve extinction_of(const Nodes& opacity, double standard_length, const std::string& name,
-                    std::vector<std::string>& notes) {
-  Curve curve(opacity);
-  bool capped = false;
-  for (Node& n : curve.nodes())
-    for (double& x : n.x) x = capped_extinction(x, standard_length, capped);
-  if (capped) note_cap(name, standard_length, notes);
-  return curve;
-}
-
-namespace {
-// Appends the nodes behind a, up to and including b, so that the chords follow mu(alpha(v)) to `tolerance`.
-void refine(const Node& a, const Node& b, double standard_length, double tolerance, int depth, bool& capped,
-            std::vector<Node>& out) {
-  const double v = 0.5 * (a.value + b.value);
-  const Vector3 alpha = lerp(a.x, b.x, 0.5);
-  double worst = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double chord =
-        0.5 * (capped_extinction(a.x[c], standard_length, capped) + capped_extinction(b.x[c], standard_length, capped));
-    worst = std::max(worst, std::abs(capped_extinction(alpha[c], standard_length, capped) - chord));
-  }
-  if (depth == 0 || worst <= tolerance || v <= a.value || v >= b.value) {
-    out.push_back(b);
-    return;
-  }
-  refine(a, {v, alpha}, standard_length, tolerance, depth - 1, capped, out);
-  refine({v, alpha}, b, standard_length, tolerance, depth - 1, capped, out);
-}
-}  // namespace
-
-Curve extinction_of_interpolated_opacity(const Nodes& opacity, double standard_length, const std::string& name,
-                                         std::vector<std::string>& notes) {
-  bool capped = false;
-  double largest = 0;
-  for (const Node& n : opacity.node)
-    for (double x : n.x) largest = std::max(largest, capped_extinction(x, standard_length, capped));
-  Nodes refined;
-  refined.components = opacity.components;
-  refined.node.push_back(opacity.node.front());
-  for (std::size_t k = 1; k < opacity.node.size(); ++k) {
-    if (opacity.node[k].value > opacity.node[k - 1].value)
-      refine(opacity.node[k - 1], opacity.node[k], standard_length, 1e-5 * largest, 24, capped, refined.node);
-    else
-      refined.node.push_back(opacity.node[k]);
-  }
-  Curve curve = extinction_of(refined, standard_length, name, notes);
-  notes.push_back(name + ": opacity interpolation as " + std::to_string(curve.nodes().size()) +
-                  " extinction nodes, 1e-5 of the largest extinction");
-  return curve;
+Curve color_curve(const Nodes& nodes, const ModelContext& context) {
+  Curve color(nodes);
+  if (context.linear_color)
+    for (Node& n : color.nodes()) std::transform(n.x.begin(), n.x.end(), n.x.begin(), display_to_linear);
+  return color;
 }
 
 double display_to_linear(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
@@ -137,5 +76,44 @@ void MediumBuilder::add_product(Term term, const Curve& a, const Curve& b) {
     }
   }
 }
+
+void MediumBuilder::add_opaque(const Extinction& extinction, const Curve& color, bool surface) {
+  for (const auto& [v0, v1] : extinction.opaque) {
+    std::vector<double> edge{v0};
+    for (double v : color.breaks())
+      if (v > v0 && v < v1) edge.push_back(v);
+    edge.push_back(v1);
+    for (std::size_t k = 0; k + 1 < edge.size(); ++k) {
+      OpaqueRange range{edge[k], edge[k + 1]};
+      const bool isosurface = v0 == v1;
+      const std::array<Vector3, 2> c{color.at(edge[k]), color.at(edge[k + 1], !isosurface)};
+      (surface ? range.S : range.P) = c;
+      if (surface) range.W = {Vector3{1, 1, 1}, Vector3{1, 1, 1}};
+      medium_.opaque.push_back(range);
+    }
+  }
+}
+
+void MediumBuilder::add_opaque_isosurface(double v, const Vector3& color) {
+  const Vector3 one{1, 1, 1};
+  medium_.opaque.insert(medium_.opaque.begin(), {v, v, {}, {color, color}, {one, one}});
+}
+
+void MediumBuilder::add_dirac(const Dirac& dirac) {
+  auto& all = medium_.dirac;
+  const auto place =
+      std::lower_bound(all.begin(), all.end(), dirac.v, [](const Dirac& d, double v) { return d.v < v; });
+  if (place == all.end() || place->v != dirac.v) {
+    all.insert(place, dirac);
+    return;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double mu = place->mu[c] + dirac.mu[c];
+    if (mu > 0) place->c[c] = (place->mu[c] * place->c[c] + dirac.mu[c] * dirac.c[c]) / mu;
+    place->mu[c] = mu;
+  }
+}
+
+Medium MediumBuilder::take() { return std::move(medium_); }
 
 }  // namespace dvrlab

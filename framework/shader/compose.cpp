@@ -32,7 +32,11 @@ constexpr Part part_list[] = {
     {From::framework, "steps.kernel"},
     {From::framework, "stream.glsl"},
     {From::stream, ""},
+    {From::framework, "mean.kernel"},
+    {From::framework, "discrete.kernel"},
+    {From::framework, "light.kernel"},
     {From::estimator, ""},
+    {From::framework, "integrate.kernel"},
     {From::framework, "composite.kernel"},
     {From::framework, "march.glsl"},
 };

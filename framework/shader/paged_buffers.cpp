@@ -76,6 +76,14 @@ std::string packed_functions(const std::string& name, const Packing& pack) {
          s + ");\n  b = float(" + unpack + "(w, j));\n}\n";
 }
 
+/// The fetch functions of a buffer that is never read: the kernel's text still names them.
+std::string unbound_text(const std::string& name, const Packing& pack) {
+  const std::string word = pack.word;
+  if (word == "vec4") return "vec4 fetch4_" + name + "(int i) { return vec4(0.0); }\n";
+  return "int fetchi_" + name + "(int i) { return 0; }\nfloat fetch1_" + name +
+         "(uint i) { return 0.0; }\nvoid fetch2_" + name + "(uint i, out float a, out float b) { a = b = 0.0; }\n";
+}
+
 }  // namespace
 
 PagedBuffer page_buffer(const Buffer& buffer, std::uint64_t range, int binding) {
@@ -86,6 +94,7 @@ PagedBuffer page_buffer(const Buffer& buffer, std::uint64_t range, int binding) 
                        " elements, more than a kernel's index can count");
   PagedBuffer paged;
   paged.buffer = buffer;
+  if (buffer.count == 0) return paged;
   const std::uint64_t whole = round_up((buffer.count + 1) * size, 16);
   if (whole <= range) {
     paged.page_elements = buffer.count;
@@ -106,6 +115,7 @@ std::string buffer_text(const PagedBuffer& paged) {
   const std::string& name = paged.buffer.name;
   const Packing pack = packing(paged.buffer.element);
   std::string text;
+  if (paged.pages.empty()) return unbound_text(name, pack);
   for (std::size_t p = 0; p < paged.pages.size(); ++p)
     text += "layout(std430, binding = " + std::to_string(paged.pages[p].binding) + ") readonly buffer dvr_" +
             page_name(name, p) + " { " + pack.word + " " + page_name(name, p) + "[]; };\n";

@@ -57,7 +57,7 @@ struct PagedBuffer {
 };
 
 /// `output` is a storage buffer of vec4, two per pixel of the band, first row of the band first:
-/// (radiance rgb incl. background, bits of the samples) and (transmittance rgb, bits of 2 * skipped + terminated).
+/// (radiance rgb incl. background, bits of the samples) and (transmittance rgb, bits of 4 * skipped + 2 * cut + terminated).
 struct ComposedShader {
   static constexpr int output_binding = 0;
   static constexpr int workgroup = 8;  // pixels in x and in y

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "framework/config/key_pointer.h"
 #include "framework/interfaces/metric.h"
 #include "tests/support/render.h"
 
@@ -82,7 +83,7 @@ void check_parameter(const PluginEntryInfo& e, const Parameter& p, Count& count)
     config.merge_patch(patch);
   }
   json changed = config;
-  section_of(changed, e.kind, e.name)[p.name] = json::parse(p.live_value);
+  section_of(changed, e.kind, e.name)[key_pointer(p.name)] = json::parse(p.live_value);
   ASSERT_NE(config, changed) << what << ": live_value is the example's own value";
   const FrameImage before = render(config, target_of(e, config)).image,
                    after = render(changed, target_of(e, changed)).image;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/support/reference.h"
+#include "tests/support/golden_case.h"
 #include "tests/support/render.h"
 
 namespace dvrlab::test {
@@ -37,22 +37,6 @@ double error_of(const FrameImage& image, const RayIntegral& truth) {
     worst = std::max(worst, std::abs(double(image.trans[c]) - truth.T[c]));
   }
   return worst;
-}
-
-RayIntegral expected(const json& golden_case) {
-  RayIntegral r;
-  for (std::size_t c = 0; c < 3; ++c) {
-    r.I[c] = std::stod(golden_case.at("expect").at("I")[c].get<std::string>());
-    r.T[c] = std::stod(golden_case.at("expect").at("T")[c].get<std::string>());
-  }
-  return r;
-}
-
-const json* golden_case(const std::string& id) {
-  if (golden().is_null()) return nullptr;
-  for (const json& c : golden().at("cases"))
-    if (c.at("id") == id) return &c;
-  return nullptr;
 }
 
 class Truth : public testing::TestWithParam<Target> {
@@ -92,12 +76,12 @@ TEST_P(Truth, HomogeneousMediumInClosedForm) {
 }
 
 TEST_P(Truth, GoldenSegmentHomogeneous) {
-  const json* g = golden_case("seg_homogeneous");
-  if (g == nullptr) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-  json config = ray_config({{"field", "constant"}, {"value", g->at("ray").at("v0")}}, g->at("ray").at("dl"), 0.05);
-  config["optical_model"] = model(g->at("params").at("tau"), g->at("params").at("color"));
+  const json g = golden_case("seg_homogeneous");
+  if (g.is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
+  json config = ray_config({{"field", "constant"}, {"value", g.at("ray").at("v0")}}, g.at("ray").at("dl"), 0.05);
+  config["optical_model"] = model(g.at("params").at("tau"), g.at("params").at("color"));
   SKIP_WHEN_NOT_SUPPORTED({
-    const double e = error(config, expected(*g));
+    const double e = error(config, golden_integral(g));
     std::printf("seg_homogeneous: error %.2e\n", e);
     EXPECT_LE(e, 2e-6);
   })
@@ -110,15 +94,15 @@ TEST_P(Truth, GoldenSegmentsConverge) {
     double last;  // bound at 4096 segments, a quarter of the error that 2048 segments may have
   };
   for (const Row& row : {Row{"seg_ramp_up", 2e-6}, Row{"seg_peak64", 2e-4}, Row{"seg_box", 2e-3}}) {
-    const json* g = golden_case(row.id);
-    if (g == nullptr) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-    const json& ray = g->at("ray");
+    const json g = golden_case(row.id);
+    if (g.is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
+    const json& ray = g.at("ray");
     const double length = ray.at("dl"), v0 = ray.at("v0"), v1 = ray.at("v1");
     std::vector<double> e;
     for (int n : {64, 256, 1024, 4096}) {
       json config = ray_config(ramp_field(v0, v1, length), length, length / n);
-      config["optical_model"] = model(g->at("params").at("tau"), g->at("params").at("color"));
-      SKIP_WHEN_NOT_SUPPORTED(e.push_back(error(config, expected(*g))))
+      config["optical_model"] = model(g.at("params").at("tau"), g.at("params").at("color"));
+      SKIP_WHEN_NOT_SUPPORTED(e.push_back(error(config, golden_integral(g))))
     }
     std::printf("%s: error %.2e %.2e %.2e %.2e at N = 64, 256, 1024, 4096\n", row.id, e[0], e[1], e[2], e[3]);
     EXPECT_LT(e[1], e[0]) << row.id;
@@ -129,9 +113,9 @@ TEST_P(Truth, GoldenSegmentsConverge) {
 
 // golden levoy_sphere: shaded, radial field, headlight; k and b come from the real shading kernel.
 TEST_P(Truth, GoldenLevoySphereConverges) {
-  const json* g = golden_case("levoy_sphere");
-  if (g == nullptr) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-  const json &ray = g->at("ray"), &shade = g->at("shade"), &params = g->at("params");
+  const json g = golden_case("levoy_sphere");
+  if (g.is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
+  const json &ray = g.at("ray"), &shade = g.at("shade"), &params = g.at("params");
   const double D = ray.at("D");
   std::vector<double> e;
   for (int n : {32, 128, 512, 2048}) {
@@ -152,8 +136,8 @@ TEST_P(Truth, GoldenLevoySphereConverges) {
                                {"diffuse", shade.at("kd")},
                                {"specular", shade.at("ks")},
                                {"shininess", shade.at("n")}}};
-    config["image"]["background"] = g->at("background");
-    SKIP_WHEN_NOT_SUPPORTED(e.push_back(error(config, expected(*g))))
+    config["image"]["background"] = g.at("background");
+    SKIP_WHEN_NOT_SUPPORTED(e.push_back(error(config, golden_integral(g))))
   }
   std::printf("levoy_sphere: error %.2e %.2e %.2e %.2e at N = 32, 128, 512, 2048\n", e[0], e[1], e[2], e[3]);
   EXPECT_LT(e[1], e[0] / 8);

@@ -53,6 +53,7 @@ bool all_lanes(bool m) { return m; }
 float select(bool m, float a, float b) { return m ? a : b; }
 int select(bool m, int a, int b) { return m ? a : b; }
 vec3 select(bool m, vec3 a, vec3 b) { return m ? a : b; }
+vec4 select(bool m, vec4 a, vec4 b) { return m ? a : b; }
 float rmin(float a, float b) { return b < a ? b : a; }
 float rmax(float a, float b) { return a < b ? b : a; }
 int imin(int a, int b) { return b < a ? b : a; }

@@ -8,7 +8,11 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/shading.kernel"
 #include "framework/kernel/segment.kernel"
+#include "framework/kernel/mean.kernel"
+#include "framework/kernel/discrete.kernel"
+#include "framework/kernel/light.kernel"
 #include DVR_KERNEL_FILE
+#include "framework/kernel/integrate.kernel"
   // clang-format on
 
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
@@ -29,7 +33,7 @@ struct DVR_STRUCT : kernel_base {
       q.g1 = q.g = {load(c->g[0] + b), load(c->g[1] + b), load(c->g[2] + b)};
       vec3r color;
       spectral t;
-      segment_kernel(q, color, t);
+      segment_integrate(q, color, t);
       store(c->c[0] + a, color.x);
       store(c->c[1] + a, color.y);
       store(c->c[2] + a, color.z);

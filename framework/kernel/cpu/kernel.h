@@ -20,6 +20,9 @@ DVR_INLINE vec3r operator-(vec3r a) { return {-a.x, -a.y, -a.z}; }
 DVR_INLINE vec3r select(mask m, vec3r a, vec3r b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
+DVR_INLINE vec4r select(mask m, vec4r a, vec4r b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
+}
 DVR_INLINE vec3r xyz(vec4r a) { return {a.x, a.y, a.z}; }
 
 /// Three rows of a packet.

@@ -12,7 +12,7 @@ const Parameter parameters[] = {
 
 class MyEstimator : public EstimatorPlugin {
  public:
-  EstimatorDeclaration declaration() const override {
+  EstimatorDeclaration declaration(const ParameterSet&) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
     // What the kernel integrates. A medium with another term (surfaces, Diracs) is refused at validation.

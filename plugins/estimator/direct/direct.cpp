@@ -1,22 +1,33 @@
 // The `direct` estimator: nothing to prepare, the kernel asks the medium at each segment's centre.
 #include "framework/interfaces/estimator.h"
+#include "framework/interfaces/segment_keys.h"
 
 namespace {
 using namespace dvrlab;
 
+const Parameter parameters[] = {
+    {"total_variation", ParameterType::boolean, "", "false", "",
+     "Surfaces between samples: |dv| is the way that the value goes between the two neighbours, not their difference, "
+     "so that no surface is lost at an extremum.",
+     Affects::pixels, R"({"optical_model":{"type":"hybrid","opacity":null,"surface":{"opacity":[[0.3,0],[0.8,0.6]]}}})",
+     "true"},
+    approximate_dirac_key};
+
 class Direct : public EstimatorPlugin {
  public:
-  EstimatorDeclaration declaration() const override {
+  EstimatorDeclaration declaration(const ParameterSet&) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::centre;
-    for (Term t : {Term::tau_l, Term::E, Term::P, Term::S_l, Term::W_l}) d.handles |= Terms::bit(t);
+    d.neighbours = true;
+    for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
     d.handles |= Terms::rgb_bit;
     return d;
   }
+  double dirac_pulse(const ParameterSet& p) const override { return p.number("approximate_dirac"); }
 };
 
 }  // namespace
 
-DVRLAB_PLUGIN_PLAIN("estimator", "direct", "1.0", Direct,
-                    "post-classification: the medium at the centre of each segment, constant over its length",
-                    "F. Yang et al., hybrid optical model, 2012, equations 11-15; N. Max 1995")
+DVRLAB_PLUGIN("estimator", "direct", "1.1", Direct, parameters,
+              "post-classification: the medium at the centre of each segment, constant over its length",
+              "F. Yang et al., hybrid optical model, 2012, equations 11-15; N. Max 1995")

@@ -1,7 +1,4 @@
 // Absorption plus emission (Max 1995; Yang et al. 2012, equation 1), unshaded or Levoy-shaded.
-#include <algorithm>
-#include <cmath>
-
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/transfer_function.h"
 
@@ -31,39 +28,33 @@ const Parameter parameters[] = {
 class AbsorptionEmission : public OpticalModelPlugin {
  public:
   Medium medium(const ParameterSet& p, const ModelContext& context) const override {
-    const Curve extinction = extinction_curve(p, context);
+    const Extinction extinction = extinction_curve(p, context);
     const Curve color = color_curve(p.nodes("color"), context);
     const bool glows = !p.is_null("emission");
     const Curve emission = glows ? color_curve(p.nodes("emission"), context) : Curve(Vector3{0, 0, 0});
-    std::vector<const Curve*> curves = {&extinction, &color};
+    std::vector<const Curve*> curves = {&extinction.curve, &color};
     if (glows) curves.push_back(&emission);
     MediumBuilder builder(curves);
-    builder.add(Term::tau_l, extinction);
+    builder.add(Term::tau_l, extinction.curve);
     if (p.boolean("shaded")) {
-      builder.add_product(Term::S_l, color, extinction);
-      builder.add(Term::W_l, extinction);
+      builder.add_product(Term::S_l, color, extinction.curve);
+      builder.add(Term::W_l, extinction.curve);
     } else {
-      builder.add_product(Term::P, color, extinction);
+      builder.add_product(Term::P, color, extinction.curve);
     }
     if (glows) builder.add(Term::E, emission, 1.0 / context.length_unit);
+    builder.add_opaque(extinction, color, p.boolean("shaded"));
     return builder.take();
   }
 
  private:
   // Per world unit.
-  static Curve extinction_curve(const ParameterSet& p, const ModelContext& context) {
+  static Extinction extinction_curve(const ParameterSet& p, const ModelContext& context) {
     if (p.is_null("opacity") == p.is_null("extinction"))
       throw InputError(p.path() + ": give exactly one of opacity and extinction");
-    if (!p.is_null("opacity")) {
-      const Nodes opacity = p.nodes("opacity");
-      for (const Node& n : opacity.node)
-        if (std::any_of(n.x.begin(), n.x.end(), [](double a) { return a < 0 || a > 1; }))
-          throw InputError(p.path_of("opacity") + ": opacity outside [0, 1] at value " + std::to_string(n.value));
-      const double standard = p.number("dl_std") * context.length_unit;
-      return context.opacity_interpolation
-                 ? extinction_of_interpolated_opacity(opacity, standard, p.path_of("opacity"), *context.notes)
-                 : extinction_of(opacity, standard, p.path_of("opacity"), *context.notes);
-    }
+    if (!p.is_null("opacity"))
+      return extinction_of(Curve(p.nodes("opacity")), nullptr, p.number("dl_std") * context.length_unit,
+                           p.path_of("opacity"), context);
     Curve mu(p.nodes("extinction"));
     for (Node& n : mu.nodes()) {
       for (double& x : n.x) {
@@ -72,14 +63,7 @@ class AbsorptionEmission : public OpticalModelPlugin {
         x /= context.length_unit;
       }
     }
-    return mu;
-  }
-
-  static Curve color_curve(const Nodes& nodes, const ModelContext& context) {
-    Curve color(nodes);
-    if (context.linear_color)
-      for (Node& n : color.nodes()) std::transform(n.x.begin(), n.x.end(), n.x.begin(), display_to_linear);
-    return color;
+    return {std::move(mu), {}};
   }
 };
 

@@ -4,7 +4,7 @@
 namespace {
 class Crooked : public dvrlab::EstimatorPlugin {
  public:
-  dvrlab::EstimatorDeclaration declaration() const override {
+  dvrlab::EstimatorDeclaration declaration(const dvrlab::ParameterSet&) const override {
     dvrlab::EstimatorDeclaration d;
     d.handles = ~0u;
     return d;

@@ -4,7 +4,7 @@
 namespace {
 class Twin : public dvrlab::EstimatorPlugin {
  public:
-  dvrlab::EstimatorDeclaration declaration() const override { return {}; }
+  dvrlab::EstimatorDeclaration declaration(const dvrlab::ParameterSet&) const override { return {}; }
 };
 }  // namespace
 

@@ -7,7 +7,7 @@ namespace {
 class Grumpy : public dvrlab::EstimatorPlugin {
  public:
   Grumpy() { throw std::runtime_error("not in the mood"); }
-  dvrlab::EstimatorDeclaration declaration() const override { return {}; }
+  dvrlab::EstimatorDeclaration declaration(const dvrlab::ParameterSet&) const override { return {}; }
 };
 }  // namespace
 

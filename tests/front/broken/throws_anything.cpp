@@ -5,7 +5,7 @@ namespace {
 class Odd : public dvrlab::EstimatorPlugin {
  public:
   Odd() { throw 42; }
-  dvrlab::EstimatorDeclaration declaration() const override { return {}; }
+  dvrlab::EstimatorDeclaration declaration(const dvrlab::ParameterSet&) const override { return {}; }
 };
 }  // namespace
 

@@ -17,7 +17,7 @@ const Parameter parameters[] = {
 
 class SpikeExact : public EstimatorPlugin {
  public:
-  EstimatorDeclaration declaration() const override {
+  EstimatorDeclaration declaration(const ParameterSet&) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
     d.needs_nodes = true;
