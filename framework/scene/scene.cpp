@@ -61,10 +61,15 @@ Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxe
 void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d) {
   Terms missing;
   missing.bits = medium.terms().bits & ~d.handles;
+  const auto& keys = c.estimator.parameters.declared();
+  const bool pulses = std::any_of(keys.begin(), keys.end(),
+                                  [](const Parameter& p) { return p.name == std::string("approximate_dirac"); });
+  const std::string hint =
+      missing.dirac() && pulses ? "; estimator.approximate_dirac can stand pulses in for Dirac terms" : "";
   if (missing.bits != 0)
     throw InputError("estimator.type: estimator \"" + c.estimator.type + "\" cannot integrate the terms " +
                      missing.text() + " of optical model \"" + c.optical_model.type +
-                     "\"; choose another estimator (dvrlab list estimator) or remove these terms");
+                     "\"; choose another estimator (dvrlab list estimator) or remove these terms" + hint);
   if (d.needs_nodes && c.optical_model.parameters.text("tf") != "nodes")
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" integrates between the transfer functions' nodes; set optical_model.tf to \"nodes\"");

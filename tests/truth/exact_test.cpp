@@ -198,6 +198,16 @@ TEST_P(Exact, SurfacesAreTransparentFromEveryAngle) {
   }
 }
 
+// Software GPUs end loops after 65535 rounds in all. Either the ray is whole, or the case is refused: never half a ray.
+TEST_P(Exact, ARayIsWholeOrRefused) {
+  const json g = golden_case("hybrid_up");
+  SKIP_WHEN_NOT_SUPPORTED({
+    const double e = error_of(image(golden_config(g, 40000)), golden_integral(g));
+    std::printf("hybrid_up in 40000 segments: error %.2e\n", e);
+    EXPECT_LE(e, 1e-3);  // 40000 roundings of 2^-24
+  })
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, Exact, testing::ValuesIn(targets()), [](const auto& instance) {
   std::string name = instance.param.name;
   std::replace_if(
