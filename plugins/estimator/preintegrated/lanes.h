@@ -138,7 +138,7 @@ DVR_INLINE void exp_minus(vd x, vd& t, vd& opacity) {
   even = even * s + all(0.5);
   odd = odd * s + all(1.0 / 6.0);
   const vd p = r + s * (even + r * odd);
-  t = select(thin, scale + scale * p, all(0.0));
+  t = select(thin, scale * (all(1.0) + p), all(0.0));  // scale * p alone could be flushed to 0
   opacity = select(thin, (all(1.0) - scale) - scale * p, all(1.0));
 }
 

@@ -298,12 +298,12 @@ struct Slide {
     for (int c = 0; c < columns(); ++c) {
       const int e = extinction_of(c);
       const vd G = d.h_m * sum_to(v.side.length_sum[c], row, end) + sum_to(v.side.surface_sum[c], row, end);
-      const vd noise = all(j.ratio_noise[c]), C = value[1 + c];
-      // C and C_approx alike far below the noise: 1. C above it: C / C_approx.
-      const vd even = noise * noise / (noise + C);
-      const vd scale = all(1.0) / (at_least(G, 0.0) * phi[e] + even);
-      value[1 + c] = (C + even) * scale;
-      if (weighted(c)) value[1 + columns() + c] = (value[1 + columns() + c] + even * middle[e]) * scale;
+      // (C + even) / (C_approx + even) with even = noise^2 / (noise + C): where C and C_approx are both far below the
+      // noise the ratio is 1, where C is above it C / C_approx. One division.
+      const vd noise = all(j.ratio_noise[c]), C = value[1 + c], more = noise + C, square = noise * noise;
+      const vd scale = all(1.0) / (at_least(G, 0.0) * phi[e] * more + square);
+      value[1 + c] = (C * more + square) * scale;
+      if (weighted(c)) value[1 + columns() + c] = (value[1 + columns() + c] * more + square * middle[e]) * scale;
     }
   }
 

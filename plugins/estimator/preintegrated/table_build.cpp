@@ -43,8 +43,8 @@ std::uint64_t Table::bytes(int n, const TableRequest& request) {
   return 2 * std::uint64_t(request.groups()) * buffer_bytes(n);
 }
 
-Table::Table(Cells cells, TableRequest request, double h, BuildMeans means)
-    : cells_(std::move(cells)), request_(std::move(request)), h_(h), means_(std::move(means)) {
+Table::Table(Cells cells, TableRequest request, double h, const BuildMeans& means)
+    : cells_(std::move(cells)), request_(std::move(request)), h_(h) {
   check(request_);
   const int n = cells_.grid.n;
   if (!(h > 0) || !std::isfinite(h) || n < 2 || n > 65000) {
@@ -54,13 +54,13 @@ Table::Table(Cells cells, TableRequest request, double h, BuildMeans means)
     throw InputError(what.str());
   }
   for (int k = 0; k < 2 * request_.groups(); ++k) buffer_.push_back(allocate(buffer_bytes(n)));
-  compute(0, n - 1);
+  compute(0, n - 1, means);
 }
 
-bool Table::update(Cells cells) {
+bool Table::update(Cells cells, const BuildMeans& means) {
   const auto changed = changed_cells(cells_, cells);
   cells_ = std::move(cells);
-  if (changed) compute(changed->first, changed->second);
+  if (changed) compute(changed->first, changed->second, means);
   return changed.has_value();
 }
 
@@ -73,8 +73,8 @@ float Table::at(int i, int j, int output) const {
   return buffer(d, output / 4).get()[table_entry(d, values(), i, j) * 4 + output % 4];
 }
 
-void Table::compute(int first, int last) {
-  const dvr_table_module& module = table_module(means_.folder, means_.isa);
+void Table::compute(int first, int last, const BuildMeans& means) {
+  const dvr_table_module& module = table_module(means.folder, means.isa);
   const TableInputs inputs(cells_, request_, h_);
   dvr_table_job job = inputs.job();
   job.stream = bytes(values(), request_) > stream_above ? 1 : 0;
@@ -83,7 +83,7 @@ void Table::compute(int first, int last) {
       job.side[d].out[g] = buffer_[std::size_t(d * request_.groups() + g)].get();
   // Blocks with small m are the longest and come first: the threads end together.
   const int blocks = (values() + module.lanes - 1) / module.lanes;
-  const int threads = std::clamp(cpu::thread_count(means_.threads), 1, blocks);
+  const int threads = std::clamp(cpu::thread_count(means.threads), 1, blocks);
   const std::size_t scratch_bytes = (module.scratch_bytes(&job) + 63) / 64 * 64;
   std::vector<std::unique_ptr<void, Free>> scratch;
   for (int k = 0; k < threads; ++k)

@@ -25,12 +25,12 @@ class Table {
  public:
   /// Computes everything. `h` is the nominal length of a segment (world units), > 0 and finite; n <= 65000. Throws
   /// InputError.
-  Table(Cells cells, TableRequest request, double h, BuildMeans means);
+  Table(Cells cells, TableRequest request, double h, const BuildMeans& means);
 
   /// The table of `cells` on the same grid: recomputes the entries that pass a changed cell. Their neighbours in a
   /// block of diagonals may be recomputed too; recomputed entries can differ from those of a new table in the last bit
   /// of a float. Returns false when nothing had changed. Buffers handed out before see the change.
-  bool update(Cells cells);
+  bool update(Cells cells, const BuildMeans& means);
 
   /// 4 floats per entry, table_entries(n) entries; group g has the request's outputs 4g .. 4g+3.
   std::shared_ptr<const float> buffer(Direction direction, int group) const;
@@ -45,12 +45,11 @@ class Table {
   static std::uint64_t bytes(int n, const TableRequest& request);
 
  private:
-  void compute(int first, int last);
+  void compute(int first, int last, const BuildMeans& means);
 
   Cells cells_;
   TableRequest request_;
   double h_;
-  BuildMeans means_;
   std::vector<std::shared_ptr<float>> buffer_;  // [direction][group]
 };
 
