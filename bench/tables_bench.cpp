@@ -1,13 +1,12 @@
 // What pre-integration tables cost: a new table, the straightforward scalar build beside it, and partial updates.
 // All contenders run once per round, round after round, so that a change of the machine's load meets all of them.
 // Prints a Markdown table.
-#include <time.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +25,7 @@ using Kind = OutputChannel::Kind;
 struct Options {
   int rounds = 5;
   std::vector<int> sizes = {256, 1024, 4096};
+  std::string filter;  // only contenders whose name has this part
 };
 
 struct Contender {
@@ -155,6 +155,7 @@ void compare(int n, const Options& o) {
     std::snprintf(name, sizeof(name), "RGBA, update of %g %% at the end", 100 * width);
     all.push_back(rgba.edit(name, 1 - width, 1));
   }
+  std::erase_if(all, [&](const Contender& c) { return c.name.find(o.filter) == std::string::npos; });
   std::printf(
       "\n%d values, %.1f MiB of RGBA\n\n| what | wall ms, least | wall ms, median | CPU ms, least | goal "
       "|\n|---|---|---|---|---|\n",
@@ -170,6 +171,7 @@ int main(int argc, char** argv) {
   CLI::App app("Times of pre-integration tables, as Markdown tables");
   app.add_option("--rounds", o.rounds, "calls of every contender")->check(CLI::PositiveNumber);
   app.add_option("--sizes", o.sizes, "values per table")->check(CLI::Range(2, 65000));
+  app.add_option("--filter", o.filter, "only contenders whose name has this part");
   CLI11_PARSE(app, argc, argv);
   try {
     std::printf("%s, %d threads, %s\n", cpu::processor_name().c_str(), cpu::thread_count(0),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "framework/interfaces/error.h"
 
@@ -30,7 +31,7 @@ void check(const Medium& medium, const CellGrid& grid) {
          << "] have no cells; give at least 2 values and a finite range whose upper end is larger";
     throw InputError(what.str());
   }
-  const auto refuse = [&](double v, const char* term) {
+  const auto refuse = [&](double v, const std::string& term) {
     what << "pre-integration table: the medium's " << term << " at the value " << v
          << " is not finite; opaque intervals and isosurfaces must be taken out before (opaque: \"cap\" does it)";
     throw InputError(what.str());
@@ -38,7 +39,7 @@ void check(const Medium& medium, const CellGrid& grid) {
   for (const MediumInterval& i : medium.interval)
     for (int c = 0; c < medium_columns; ++c)
       for (double x : i.c[std::size_t(c)])
-        if (!std::isfinite(x)) refuse(i.v0, c / 3 == static_cast<int>(Term::tau_s) ? "surface extinction" : "term");
+        if (!std::isfinite(x)) refuse(i.v0, Terms{Terms::bit(static_cast<Term>(c / 3))}.text());
   for (const Dirac& d : medium.dirac)
     for (std::size_t ch = 0; ch < 3; ++ch)
       if (!std::isfinite(d.mu[ch]) || !std::isfinite(d.c[ch]) || !std::isfinite(d.v)) refuse(d.v, "Dirac term");

@@ -145,7 +145,9 @@ void evaluate_diracs(const dvr_table_job& j, const Diagonals& d, const Scratch& 
   }
 }
 
+/// The cells from .. to + l - 1.
 DVR_INLINE vd sum_to(const dvr_table_prefix& p, intptr_t from, intptr_t to) {
+  if (p.hi == nullptr) return all(0.0);
   return (load(p.hi + to) - all(p.hi[from])) + (load(p.lo + to) - all(p.lo[from]));
 }
 

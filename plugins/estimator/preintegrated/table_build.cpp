@@ -53,7 +53,7 @@ Table::Table(Cells cells, TableRequest request, double h, const BuildMeans& mean
          << "; give 2 to 65000 values and a finite length above 0";
     throw InputError(what.str());
   }
-  for (int k = 0; k < 2 * request_.groups(); ++k) buffer_.push_back(allocate(buffer_bytes(n)));
+  while (buffer_.size() < 2 * std::size_t(request_.groups())) buffer_.push_back(allocate(buffer_bytes(n)));
   compute(0, n - 1, means);
 }
 
@@ -65,7 +65,8 @@ bool Table::update(Cells cells, const BuildMeans& means) {
 }
 
 std::shared_ptr<const float> Table::buffer(Direction direction, int group) const {
-  return buffer_.at(std::size_t(static_cast<int>(direction) * request_.groups() + group));
+  const std::size_t groups = std::size_t(request_.groups());
+  return buffer_.at((direction == Direction::ascending ? 0 : groups) + std::size_t(group));
 }
 
 float Table::at(int i, int j, int output) const {
@@ -78,9 +79,9 @@ void Table::compute(int first, int last, const BuildMeans& means) {
   const TableInputs inputs(cells_, request_, h_);
   dvr_table_job job = inputs.job();
   job.stream = bytes(values(), request_) > stream_above ? 1 : 0;
-  for (int d = 0; d < 2; ++d)
-    for (int g = 0; g < request_.groups(); ++g)
-      job.side[d].out[g] = buffer_[std::size_t(d * request_.groups() + g)].get();
+  auto next_buffer = buffer_.begin();
+  for (dvr_table_side& side : job.side)
+    for (int g = 0; g < job.groups; ++g) side.out[g] = (next_buffer++)->get();
   // Blocks with small m are the longest and come first: the threads end together.
   const int blocks = (values() + module.lanes - 1) / module.lanes;
   const int threads = std::clamp(cpu::thread_count(means.threads), 1, blocks);

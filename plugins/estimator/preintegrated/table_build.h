@@ -41,7 +41,7 @@ class Table {
   double h() const { return h_; }
   const Cells& cells() const { return cells_; }
   const TableRequest& request() const { return request_; }
-  /// Of all buffers.
+  /// Of all buffers. A build works with about 1 MiB more per thread and 1000 values.
   static std::uint64_t bytes(int n, const TableRequest& request);
 
  private:

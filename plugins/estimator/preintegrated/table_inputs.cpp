@@ -47,6 +47,7 @@ double* TableInputs::copy(const std::vector<double>& values, bool mirrored) {
 }
 
 dvr_table_prefix TableInputs::prefix(const std::vector<double>& values) {
+  if (std::all_of(values.begin(), values.end(), [](double x) { return x == 0.0; })) return {nullptr, nullptr};
   double *const hi = padded(values.size() + 1), *const lo = padded(values.size() + 1);
   double h = 0, l = 0;
   for (std::size_t k = 0; k < values.size() + 1 + pad; ++k) {

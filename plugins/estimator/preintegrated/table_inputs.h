@@ -22,7 +22,7 @@ class TableInputs {
  private:
   /// An array with DVR_TABLE_PAD elements before and behind it, which outlives the job.
   double* padded(std::size_t count);
-  /// Prefix sums of `values`, n entries.
+  /// Prefix sums of `values`, n entries; null when all are 0.
   dvr_table_prefix prefix(const std::vector<double>& values);
   double* copy(const std::vector<double>& values, bool mirrored);
   void add_diracs(const Cells& cells, const TableRequest& request);

@@ -3,8 +3,8 @@
 #ifndef DVRLAB_TABLE_MODULE_H
 #define DVRLAB_TABLE_MODULE_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include <stddef.h> /* NOLINT: a C header */
+#include <stdint.h> /* NOLINT: a C header */
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,7 +18,8 @@ extern "C" {
 #define DVR_TABLE_MOST_COLUMNS 16
 #define DVR_TABLE_MOST_CHANNELS 24
 
-/* A sum that is not rounded to 53 bits: hi + lo. Differences of prefix sums next to an opaque cell need it. */
+/* A sum that is not rounded to 53 bits: hi + lo. Differences of prefix sums next to an opaque cell need it. Null: all
+ * cells are 0. */
 typedef struct dvr_table_prefix {
   const double *hi, *lo; /* n entries: entry k is the sum over the cells 0 .. k-1 */
 } dvr_table_prefix;
