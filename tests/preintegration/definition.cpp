@@ -1,0 +1,135 @@
+#include "tests/preintegration/definition.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace dvrlab::test {
+
+namespace {
+using preintegrated::CellDirac;
+
+double phi1(double q) { return q == 0 ? 1 : -std::expm1(-q) / q; }
+
+double psi(double q) {
+  if (std::abs(q) > 0.5) return (phi1(q) - std::exp(-q)) / q;
+  double sum = 0, term = 1;
+  for (int k = 0; k < 24; ++k) {
+    sum += term / (k + 2);
+    term *= -q / (k + 1);
+  }
+  return sum;
+}
+
+// A triple of the monoid (B4); D is weighted with the position in cells from the front.
+struct Triple {
+  double T = 1, C = 0, D = 0, length = 0;
+};
+Triple then(const Triple& a, const Triple& b) {
+  return {a.T * b.T, a.C + a.T * b.C, a.D + a.T * (b.D + a.length * b.C), a.length + b.length};
+}
+
+struct Source {
+  double length = 0, surface = 0;
+};
+Source source_of(const Cells& cells, const SourceColumn& s, std::size_t k) {
+  const auto get = [&](bool wanted, Term t) {
+    return wanted ? cells.integral[std::size_t(column(t, s.channel))][k] : 0;
+  };
+  return {get(s.E, Term::E) + get(s.P, Term::P) + get(s.S, Term::S_l) + get(s.W, Term::W_l),
+          get(s.S, Term::S_s) + get(s.W, Term::W_s)};
+}
+double dirac_source(const SourceColumn& s, const CellDirac& d) {
+  return (s.S ? d.c[std::size_t(s.channel)] : 0) + (s.W ? 1 : 0);
+}
+
+Triple homogeneous(double length, double q, double G) {
+  q *= length;
+  G *= length;
+  return {std::exp(-q), G * phi1(q), length * G * psi(q), length};
+}
+
+Triple cell(const Cells& cells, const SourceColumn& s, int e, std::size_t k, double h_m, bool reversed, double sign) {
+  const Source g = source_of(cells, s, k);
+  const double q = h_m * cells.integral[std::size_t(column(Term::tau_l, e))][k] +
+                   sign * cells.integral[std::size_t(column(Term::tau_s, e))][k];
+  const double G = h_m * g.length + sign * g.surface;
+  std::vector<CellDirac> inside;
+  for (const CellDirac& d : cells.dirac)
+    if (d.cell == int(k)) inside.push_back(d);
+  if (reversed) {
+    inside = {inside.rbegin(), inside.rend()};
+    for (CellDirac& d : inside) d.u = 1 - d.u;
+  }
+  Triple r;
+  for (const CellDirac& d : inside) {
+    r = then(r, homogeneous(d.u - r.length, q, G));
+    const double mu = d.mu[std::size_t(e)];
+    r = then(r, {std::exp(-mu), -std::expm1(-mu) * dirac_source(s, d), 0, 0});
+  }
+  return then(r, homogeneous(1 - r.length, q, G));
+}
+
+Entry diagonal(const Cells& cells, const SourceColumn& s, int e, double h, std::size_t i) {
+  const auto get = [&](bool wanted, Term t) {
+    return wanted ? cells.at_value[std::size_t(column(t, s.channel))][i] : 0;
+  };
+  const double q = h * cells.at_value[std::size_t(column(Term::tau_l, e))][i];
+  const double G = h * (get(s.E, Term::E) + get(s.P, Term::P) + get(s.S, Term::S_l) + get(s.W, Term::W_l));
+  return {std::exp(-q), G * phi1(q), G * psi(q)};
+}
+}  // namespace
+
+Entry defined_entry(const Cells& cells, const SourceColumn& s, int e, double h, int i, int j, Fault fault) {
+  if (i == j) return diagonal(cells, s, e, h, std::size_t(i));
+  const int m = std::abs(j - i), last = cells.grid.cells() - 1;
+  const double sign = fault == Fault::printed_equation_22 && j < i ? -1 : 1;
+  Triple r;
+  for (int k = 0; k < m; ++k) {
+    int at = j > i ? i + k : i - 1 - k;
+    if (fault == Fault::off_by_one) at = std::min(at + 1, last);
+    r = then(r, cell(cells, s, e, std::size_t(at), h / m, j < i, sign));
+  }
+  return {r.T, r.C, r.D / m};
+}
+
+std::vector<std::vector<double>> literal_slide(const Cells& cells, const SourceColumn& s, int e, double h) {
+  const int n = cells.grid.n;
+  std::vector<std::vector<double>> r(std::size_t(n), std::vector<double>(std::size_t(n), 0));
+  for (int m = 1; m < n; ++m) {
+    Triple window;
+    for (int k = 0; k < m; ++k) window = then(window, cell(cells, s, e, std::size_t(k), h / m, false, 1));
+    r[0][std::size_t(m)] = window.C;
+    for (int i = 0; i + m + 1 < n; ++i) {
+      const Triple front = cell(cells, s, e, std::size_t(i), h / m, false, 1),
+                   next = cell(cells, s, e, std::size_t(i + m), h / m, false, 1);
+      const double rest = (window.C - front.C) / front.T, R = window.T / front.T;
+      window.C = rest + R * next.C;
+      window.T = R * next.T;
+      r[std::size_t(i + 1)][std::size_t(i + 1 + m)] = window.C;
+    }
+  }
+  return r;
+}
+
+Approximation approximate_entry(const Cells& cells, const SourceColumn& s, int e, double h, int i, int j) {
+  const int m = std::abs(j - i);
+  if (m == 0) {
+    const double q = h * cells.at_value[std::size_t(column(Term::tau_l, e))][std::size_t(i)];
+    return {defined_entry(cells, s, e, h, i, i).C, q};
+  }
+  double Q = 0, G = 0;
+  for (int k = std::min(i, j); k < std::max(i, j); ++k) {
+    const Source g = source_of(cells, s, std::size_t(k));
+    Q += h / m * cells.integral[std::size_t(column(Term::tau_l, e))][std::size_t(k)] +
+         cells.integral[std::size_t(column(Term::tau_s, e))][std::size_t(k)];
+    G += h / m * g.length + g.surface;
+    for (const CellDirac& d : cells.dirac) {
+      if (d.cell != k) continue;
+      Q += d.mu[std::size_t(e)];
+      G += d.mu[std::size_t(e)] * dirac_source(s, d);
+    }
+  }
+  return {G * phi1(Q), Q};
+}
+
+}  // namespace dvrlab::test

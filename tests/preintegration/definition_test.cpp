@@ -1,0 +1,170 @@
+// Tables of every form against the definition of their entries, on every instruction set; planted faults must fail the
+// same comparison.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <random>
+
+#include "backends/cpu/isa.h"
+#include "tests/preintegration/accuracy.h"
+#include "tests/preintegration/media.h"
+
+namespace dvrlab::test {
+namespace {
+using preintegrated::CellGrid;
+using preintegrated::Direction;
+using preintegrated::integrate_cells;
+using preintegrated::Table;
+using preintegrated::table_entries;
+
+constexpr double h = 0.7;
+
+struct Case {
+  const char* name;
+  RandomMedium what;
+  int n;
+};
+// Sizes that are and are not multiples of the lanes, down to the smallest.
+const Case cases[] = {{"smooth", {}, 64},
+                      {"diracs", {.diracs = 6}, 61},
+                      {"rgb", {.rgb = true, .diracs = 3}, 35},
+                      {"opaque", {.diracs = 4, .opaque_spikes = true}, 64},
+                      {"opaque_rgb", {.rgb = true, .opaque_spikes = true}, 42},
+                      {"two", {.diracs = 2}, 2},
+                      {"three", {.diracs = 3}, 3},
+                      {"nine", {.diracs = 3}, 9}};
+
+class Definition : public testing::TestWithParam<Case> {
+ protected:
+  Cells cells(std::uint32_t seed) const {
+    return integrate_cells(random_medium(seed, GetParam().what), CellGrid{GetParam().n, 0, 1});
+  }
+};
+
+TEST_P(Definition, TotalBackAndTransmittance) {
+  double worst = 0;
+  for (std::uint32_t seed : {1u, 2u, 3u}) {
+    const Cells c = cells(seed);
+    for (const TableRequest& r : {plain_request(GetParam().what.rgb), full_request(GetParam().what.rgb, false)})
+      for (const std::string& isa : cpu::usable_isas())
+        worst = std::max(worst, worst_error(entries_of(Table(c, r, h, means(isa))), c, r, h));
+  }
+  std::printf("%s: %.3f of the allowed error\n", GetParam().name, worst);
+  EXPECT_LE(worst, 1);
+}
+
+TEST_P(Definition, Ratios) {
+  double worst = 0;
+  for (std::uint32_t seed : {1u, 2u, 3u}) {
+    const Cells c = cells(seed);
+    const TableRequest r = full_request(GetParam().what.rgb, true);
+    const Table table(c, r, h, means());
+    worst = std::max(worst, worst_ratio_error(entries_of(table), c, r, h));
+    for (int i = 0; i < c.grid.n; ++i) EXPECT_EQ(table.at(i, i, 0), 1.0f);
+  }
+  std::printf("%s: %.3f of the allowed error\n", GetParam().name, worst);
+  EXPECT_LE(worst, 1);
+}
+
+// Not a bit differs between instruction sets and numbers of threads, padding included.
+TEST_P(Definition, SameBitsOnEveryInstructionSet) {
+  const Cells c = cells(4);
+  for (const bool ratio : {false, true}) {
+    const TableRequest r = full_request(GetParam().what.rgb, ratio);
+    const Table first(c, r, h, means("scalar", 1));
+    for (const std::string& isa : cpu::usable_isas()) {
+      const Table other(c, r, h, means(isa, 3));
+      for (Direction d : {Direction::ascending, Direction::descending})
+        for (int g = 0; g < r.groups(); ++g)
+          EXPECT_EQ(std::memcmp(first.buffer(d, g).get(), other.buffer(d, g).get(),
+                                std::size_t(table_entries(c.grid.n)) * 16),
+                    0)
+              << isa << " group " << g;
+    }
+  }
+}
+
+TEST_P(Definition, TransmittanceIsSymmetric) {
+  const Cells c = cells(5);
+  const Table table(c, plain_request(false), h, means());
+  for (int i = 0; i < c.grid.n; ++i)
+    for (int j = 0; j < i; ++j) {
+      const double a = table.at(i, j, 3), b = table.at(j, i, 3);
+      EXPECT_NEAR(a, b, 2 * 0x1p-24 * a + 1e-13);
+    }
+}
+
+// Long slides beside opaque ranges: what one fp64 prefix sum of the depth would lose shows in thin windows of few
+// cells.
+TEST(LargeTable, SampledEntriesAreRight) {
+  const int n = 2048;
+  double worst = 0;
+  for (std::uint32_t seed : {1u, 2u}) {
+    const Cells c = integrate_cells(random_medium(seed, {.diracs = 3, .opaque_spikes = true}), CellGrid{n, 0, 1});
+    const TableRequest r = plain_request(false);
+    const Table table(c, r, h, means());
+    double scale = 0;
+    for (int i = 0; i < n; ++i) scale = std::max(scale, defined_entry(c, r.columns[0], 0, h, i, i).C);
+    std::mt19937 random(seed);
+    for (int k = 0; k < 600; ++k) {
+      const int m = int(random() % (k % 2 == 0 ? 12u : 2000u)), lo = int(random() % unsigned(n - m));
+      const int i = k % 4 < 2 ? lo : lo + m, j = k % 4 < 2 ? lo + m : lo;
+      const double x = defined_entry(c, r.columns[0], 0, h, i, j).C;
+      worst = std::max(worst, std::abs(table.at(i, j, 0) - x) / (0x1p-24 * x + 3 * n * 0x1p-53 * scale));
+    }
+  }
+  std::printf("%.3f of the allowed error\n", worst);
+  EXPECT_LE(worst, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Media, Definition, testing::ValuesIn(cases), [](const auto& i) { return i.param.name; });
+
+// ---- negative controls: each must fail the comparison that the builder passes --------------------------------------
+EntryOf faulty(const Cells& cells, const TableRequest& r, Fault fault) {
+  return [&cells, &r, fault](int i, int j, int o) {
+    const bool T = r.outputs[std::size_t(o)].kind == preintegrated::OutputChannel::Kind::transmittance;
+    const Entry e = defined_entry(cells, T ? SourceColumn{} : r.columns[std::size_t(r.outputs[std::size_t(o)].index)],
+                                  0, h, i, j, fault);
+    return T ? e.T : e.C;
+  };
+}
+
+class Negative : public testing::Test {
+ protected:
+  Cells cells = integrate_cells(random_medium(1, {}), CellGrid{48, 0, 1});
+  TableRequest request = plain_request(false);
+  double worst(const EntryOf& entry) const {
+    const double r = worst_error(entry, cells, request, h);
+    std::printf("%.3g times the allowed error\n", r);
+    return r;
+  }
+};
+
+TEST_F(Negative, TheDefinitionItselfPasses) { EXPECT_LE(worst(faulty(cells, request, Fault::none)), 1); }
+TEST_F(Negative, PrintedEquation22IsFound) {
+  EXPECT_GT(worst(faulty(cells, request, Fault::printed_equation_22)), 100);
+}
+TEST_F(Negative, OffByOneIsFound) { EXPECT_GT(worst(faulty(cells, request, Fault::off_by_one)), 100); }
+
+// Removing the front cell divides by its transmittance: a smooth medium of moderate depth is enough.
+TEST_F(Negative, LiteralSlideIsFound) {
+  std::vector<std::vector<std::vector<double>>> slid;
+  for (const SourceColumn& s : request.columns) slid.push_back(literal_slide(cells, s, 0, h));
+  const EntryOf right = faulty(cells, request, Fault::none);
+  const auto entry = [&](int i, int j, int o) {
+    return o < 3 && j > i ? slid[std::size_t(o)][std::size_t(i)][std::size_t(j)] : right(i, j, o);
+  };
+  EXPECT_GT(worst(entry), 100);
+}
+
+TEST_F(Negative, OneWrongBitPatternIsFound) {
+  const Table table(cells, request, h, means());
+  EXPECT_LE(worst(entries_of(table)), 1);
+  EXPECT_GT(
+      worst([&](int i, int j, int o) { return table.at(i, j, o) * (i == 40 && j == 3 && o == 2 ? 1 + 1e-6 : 1); }), 1);
+}
+
+}  // namespace
+}  // namespace dvrlab::test
