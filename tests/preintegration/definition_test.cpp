@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ostream>
 #include <random>
 
 #include "backends/cpu/isa.h"
@@ -26,6 +27,7 @@ struct Case {
   RandomMedium what;
   int n;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 // Sizes that are and are not multiples of the lanes, down to the smallest.
 const Case cases[] = {{"smooth", {}, 64},
                       {"diracs", {.diracs = 6}, 61},

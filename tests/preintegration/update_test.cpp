@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <ostream>
 
 #include "tests/preintegration/accuracy.h"
 #include "tests/preintegration/media.h"
@@ -37,6 +37,7 @@ Medium edited(const Medium& a, const Medium& b, double lo, double hi) {
 struct Edit {
   double lo, hi;
 };
+void PrintTo(const Edit& e, std::ostream* out) { *out << e.lo << " to " << e.hi; }
 class Update : public testing::TestWithParam<Edit> {};
 
 TEST_P(Update, EqualsANewTable) {
