@@ -55,7 +55,8 @@ nlohmann::json scene_section(const Scene& s, double seconds) {
       {"step_world", s.step},
       {"terms", s.medium.terms().text()},
       {"notes", s.notes},
-      {"seconds", seconds}};
+      {"seconds", seconds},
+      {"table_seconds", s.table_seconds}};
   if (const auto* grid = dynamic_cast<const GridField*>(&f)) section["dims"] = grid->dims;
   return section;
 }

@@ -32,7 +32,10 @@ struct EstimatorDeclaration {
 struct EstimatorContext {
   const Medium* medium;
   double value_min, value_max;
-  double step;  // world units
+  double step;         // world units
+  bool full;           // the kernel's variant has light factors; without them every source is lit by 1
+  bool lit_particles;  // m differs from 1
+  std::string folder;  // of the plugin: where its own libraries lie
 };
 
 class EstimatorPlugin : public Plugin {
@@ -40,8 +43,9 @@ class EstimatorPlugin : public Plugin {
   virtual EstimatorDeclaration declaration(const ParameterSet& parameters) const = 0;
   /// Width, in the transfer functions' values, of the pulses of tau_s that stand for Dirac terms; 0: none do.
   virtual double dirac_pulse(const ParameterSet& /*parameters*/) const { return 0; }
-  /// Bytes that prepare() will allocate at the most: its tables, and what it needs to build them.
-  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/) const { return 0; }
+  /// Bytes that prepare() will allocate at the most for a medium with these terms: its tables, and what it needs to
+  /// build them.
+  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/, const Terms& /*terms*/) const { return 0; }
   /// Tables and derived uniforms. The numeric parameters are added by the framework.
   virtual void prepare(const ParameterSet& /*parameters*/, const EstimatorContext& /*context*/,
                        KernelUnit& /*unit*/) const {}

@@ -1,6 +1,7 @@
 #include "framework/scene/scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -194,12 +195,14 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
     memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
   memory.state("transfer function table",
                static_cast<double>(c.optical_model.parameters.integer("tf_entries")) * medium_columns * sizeof(float));
+  std::vector<std::string> notes;
   const std::string sampler = sampler_of(c, field);
   memory.state("sampler '" + sampler + "'",
                static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler).bytes_needed(field)));
   memory.state("estimator '" + c.estimator.type + "'",
                static_cast<double>(
-                   registry.get<EstimatorPlugin>("estimator", c.estimator.type).bytes_needed(c.estimator.parameters)));
+                   registry.get<EstimatorPlugin>("estimator", c.estimator.type)
+                       .bytes_needed(c.estimator.parameters, model_medium(c, registry, 1, 0, 1, notes).terms())));
   for (const Section& s : c.illumination)
     memory.state(
         "illumination '" + s.type + "'",
@@ -279,7 +282,12 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.estimator.plugin = c.estimator.type;
   job.estimator.folder = c.estimator.folder;
   job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);
-  estimator.prepare(c.estimator.parameters, {&scene.medium, options.lo, options.hi, scene.step}, job.estimator);
+  const auto start = std::chrono::steady_clock::now();
+  estimator.prepare(c.estimator.parameters,
+                    {&scene.medium, options.lo, options.hi, scene.step, job.full,
+                     shading.mode == LocalShading::Mode::prescribed, c.estimator.folder},
+                    job.estimator);
+  scene.table_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return scene;
 }
 

@@ -19,6 +19,7 @@ struct Scene {
   Medium medium;  // in stored units
   FrameJob job;
   double step = 0;                 // world units
+  double table_seconds = 0;        // the estimator's own tables
   std::vector<std::string> notes;  // conversions, caps: what the log and the result file say
 };
 

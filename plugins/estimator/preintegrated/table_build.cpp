@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <sstream>
 #include <thread>
@@ -55,6 +56,14 @@ Table::Table(Cells cells, TableRequest request, double h, const BuildMeans& mean
   }
   memory_ = allocate(bytes(n, request_));
   compute(0, n - 1, means);
+}
+
+Table Table::copy() const {
+  Table other = *this;
+  const std::uint64_t size = bytes(values(), request_);
+  other.memory_ = allocate(size);
+  std::memcpy(other.memory_.get(), memory_.get(), size);
+  return other;
 }
 
 bool Table::update(Cells cells, const BuildMeans& means) {

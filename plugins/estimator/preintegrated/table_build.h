@@ -27,6 +27,8 @@ class Table {
   /// InputError.
   Table(Cells cells, TableRequest request, double h, const BuildMeans& means);
 
+  /// Another table with the same entries.
+  Table copy() const;
   /// The table of `cells` on the same grid: recomputes the entries that pass a changed cell. Their neighbours in a
   /// block of diagonals may be recomputed too; recomputed entries can differ from those of a new table in the last bit
   /// of a float. Returns false when nothing had changed. Buffers handed out before see the change.

@@ -1,6 +1,5 @@
 # The builder of pre-integration tables: its modules, one per instruction set, and a library for tests and benchmarks.
 include_guard(GLOBAL)
-set(DVRLAB_TABLE_SOURCE ${CMAKE_CURRENT_LIST_DIR})
 
 # dvrlab_add_table_modules(prefix folder): folder/table.<isa>.so, which BuildMeans::folder names at run time. Sets
 # DVRLAB_TABLE_MODULE_TARGETS in the caller.
@@ -9,13 +8,13 @@ function(dvrlab_add_table_modules prefix folder)
   foreach(isa ${DVRLAB_ISAS})
     string(REPLACE "." "_" isa_id ${isa})
     set(module ${prefix}_table_${isa_id})
-    add_library(${module} MODULE ${DVRLAB_TABLE_SOURCE}/table.module.cpp)
+    add_library(${module} MODULE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table.module.cpp)
     target_include_directories(${module} PRIVATE ${DVRLAB_ROOT})
     target_compile_features(${module} PRIVATE cxx_std_20)
     target_compile_definitions(${module} PRIVATE DVR_ISA_${isa_id}=1)
     target_compile_options(${module} PRIVATE ${DVRLAB_MODULE_FLAGS} ${DVRLAB_FLAGS_${isa}})
     target_link_libraries(${module} PRIVATE dvrlab_warnings)
-    target_link_options(${module} PRIVATE -Wl,--version-script=${DVRLAB_TABLE_SOURCE}/table.map -Wl,-z,defs)
+    target_link_options(${module} PRIVATE -Wl,--version-script=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table.map -Wl,-z,defs)
     set_target_properties(${module} PROPERTIES PREFIX "" OUTPUT_NAME table.${isa} LIBRARY_OUTPUT_DIRECTORY ${folder}
                           CXX_EXTENSIONS OFF)
     list(APPEND targets ${module})
@@ -30,9 +29,9 @@ function(dvrlab_table_library)
   endif()
   set(folder ${CMAKE_BINARY_DIR}/table_modules)
   dvrlab_add_table_modules(dvrlab ${folder})
-  add_library(dvrlab_table STATIC ${DVRLAB_TABLE_SOURCE}/cells.cpp ${DVRLAB_TABLE_SOURCE}/table_request.cpp
-              ${DVRLAB_TABLE_SOURCE}/table_inputs.cpp ${DVRLAB_TABLE_SOURCE}/table_library.cpp
-              ${DVRLAB_TABLE_SOURCE}/table_build.cpp ${DVRLAB_ROOT}/backends/cpu/isa.cpp)
+  add_library(dvrlab_table STATIC ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/cells.cpp ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_request.cpp
+              ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_inputs.cpp ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_library.cpp
+              ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_build.cpp ${DVRLAB_ROOT}/backends/cpu/isa.cpp)
   target_link_libraries(dvrlab_table PUBLIC dvrlab_core PRIVATE dvrlab_warnings ${CMAKE_DL_LIBS})
   target_compile_definitions(dvrlab_table INTERFACE DVRLAB_TABLE_MODULES="${folder}")
   add_dependencies(dvrlab_table ${DVRLAB_TABLE_MODULE_TARGETS})

@@ -10,6 +10,7 @@ namespace dvrlab::preintegrated {
 struct SourceColumn {
   bool E = false, P = false, S = false, W = false;
   int channel = 0;  // 0 .. 2
+  bool operator==(const SourceColumn&) const = default;
 };
 
 /// What one of the floats of an entry holds. `index` is a source column, for `transmittance` an extinction channel.
@@ -22,6 +23,7 @@ struct OutputChannel {
   };
   Kind kind = Kind::zero;
   int index = 0;
+  bool operator==(const OutputChannel&) const = default;
 };
 
 /// Limits of one build; a caller with more builds a second table.
@@ -39,6 +41,7 @@ struct TableRequest {
   int extinctions() const { return rgb_extinction ? 3 : 1; }
   int groups() const { return static_cast<int>(outputs.size()) / 4; }
   bool weighted(int column) const;
+  bool operator==(const TableRequest&) const = default;
 };
 
 /// Throws InputError (what is wrong, and what would be right).

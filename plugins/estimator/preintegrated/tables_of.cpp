@@ -1,0 +1,111 @@
+#include "plugins/estimator/preintegrated/tables_of.h"
+
+#include <algorithm>
+#include <list>
+#include <mutex>
+
+namespace dvrlab::preintegrated {
+namespace {
+
+using Kind = OutputChannel::Kind;
+
+/// Appends source columns and groups of outputs.
+class RequestWriter {
+ public:
+  explicit RequestWriter(TableRequest& request) : r_(request) {}
+
+  /// Three columns with the terms that `set` sets, one per colour channel; returns the first one's index.
+  template <class Set>
+  int columns(Set set) {
+    const int first = static_cast<int>(r_.columns.size());
+    for (int channel = 0; channel < 3; ++channel) {
+      SourceColumn c;
+      set(c);
+      c.channel = channel;
+      r_.columns.push_back(c);
+    }
+    return first;
+  }
+  int group(std::initializer_list<OutputChannel> outputs) {
+    r_.outputs.insert(r_.outputs.end(), outputs);
+    return static_cast<int>(r_.outputs.size()) / 4 - 1;
+  }
+  static OutputChannel total(int column) { return {Kind::total, column}; }
+  static OutputChannel back(int column) { return {Kind::back, column}; }
+
+ private:
+  TableRequest& r_;
+};
+
+}  // namespace
+
+TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, Groups& groups) {
+  TableRequest request;
+  request.rgb_extinction = terms.rgb();
+  request.ratio = !plain;
+  RequestWriter write(request);
+  const auto total = RequestWriter::total;
+  const auto back = RequestWriter::back;
+  const OutputChannel none{};
+  const auto through = [&](int channel) { return plain ? OutputChannel{Kind::transmittance, channel} : none; };
+  if (!full) {
+    const int c = write.columns([](SourceColumn& s) { s.E = s.P = s.S = true; });
+    groups.emitted = write.group({total(c), total(c + 1), total(c + 2), through(0)});
+  } else {
+    const int s = write.columns([](SourceColumn& x) { x.S = true; });
+    const int w = static_cast<int>(request.columns.size());
+    for (int channel = 0; channel < request.extinctions(); ++channel) {
+      SourceColumn highlight;
+      highlight.W = true;
+      highlight.channel = channel;
+      request.columns.push_back(highlight);
+    }
+    groups.shaded = write.group({total(s), total(s + 1), total(s + 2), total(w)});
+    write.group({back(s), back(s + 1), back(s + 2), back(w)});
+    if (terms.has(Term::E) || (terms.has(Term::P) && !lit_particles) || plain) {
+      const int e = write.columns([&](SourceColumn& x) {
+        x.E = true;
+        x.P = !lit_particles;
+      });
+      groups.emitted = write.group({total(e), total(e + 1), total(e + 2), through(0)});
+    }
+    if (terms.has(Term::P) && lit_particles) {
+      const int p = write.columns([](SourceColumn& x) { x.P = true; });
+      groups.particles = write.group({total(p), total(p + 1), total(p + 2), none});
+      write.group({back(p), back(p + 1), back(p + 2), none});
+    }
+    if (request.rgb_extinction) groups.highlight = write.group({total(w + 1), total(w + 2), back(w + 1), back(w + 2)});
+  }
+  if (plain && request.rgb_extinction) groups.through = write.group({through(0), through(1), through(2), none});
+  return request;
+}
+
+std::shared_ptr<const Table> table_of(const Medium& medium, double lo, double hi, int n, const TableRequest& request,
+                                      double h, bool partial, const BuildMeans& means) {
+  static std::mutex mutex;
+  static std::list<std::shared_ptr<const Table>> built;  // the newest first
+  constexpr std::size_t kept = 2;
+  Cells cells = integrate_cells(medium, {n, lo, hi});
+  const std::lock_guard lock(mutex);
+  const auto fits = [&](const Table& t) {
+    return t.request() == request && t.h() == h && t.cells().grid == cells.grid;
+  };
+  for (const auto& t : built)
+    if (fits(*t) && !changed_cells(t->cells(), cells)) return t;
+  std::shared_ptr<const Table> table;
+  for (const auto& t : built) {
+    if (!partial || table != nullptr || !fits(*t)) continue;
+    auto copy = std::make_shared<Table>(t->copy());
+    copy->update(cells, means);
+    table = copy;
+  }
+  if (table == nullptr) {
+    built.clear();  // room for the new one
+    table = std::make_shared<Table>(std::move(cells), request, h, means);
+  }
+  built.push_front(table);
+  if (built.size() > kept) built.pop_back();
+  return table;
+}
+
+}  // namespace dvrlab::preintegrated
