@@ -24,6 +24,8 @@ struct EstimatorDeclaration {
   int mean_bins = 0;
   /// Its shading asks for the barycentre of the surfaces in a segment (mean_surface_place).
   bool barycentre = false;
+  /// The framework cuts segments at Dirac terms: the kernel never sees one inside a segment, and prepare() none at all.
+  bool cuts_diracs = false;
   /// The terms that it can integrate, Terms::bit(...) | ...
   unsigned handles = 0;
 };

@@ -268,6 +268,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.frame.uniforms.insert(
       job.frame.uniforms.end(),
       {Uniform::constant_integer("frame_samples_ends", declared.samples == EstimatorDeclaration::Samples::ends ? 1 : 0),
+       Uniform::constant_integer("frame_cuts_diracs", declared.cuts_diracs ? 1 : 0),
        Uniform::constant_integer("frame_neighbours", declared.neighbours && surfaces ? 1 : 0),
        Uniform::constant_integer("frame_gradient", gradient ? 1 : 0)});
 
@@ -282,9 +283,11 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.estimator.plugin = c.estimator.type;
   job.estimator.folder = c.estimator.folder;
   job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);
+  Medium seen = scene.medium;
+  if (declared.cuts_diracs) seen.dirac.clear();
   const auto start = std::chrono::steady_clock::now();
   estimator.prepare(c.estimator.parameters,
-                    {&scene.medium, options.lo, options.hi, scene.step, job.full,
+                    {&seen, options.lo, options.hi, scene.step, job.full,
                      shading.mode == LocalShading::Mode::prescribed, c.estimator.folder},
                     job.estimator);
   scene.table_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

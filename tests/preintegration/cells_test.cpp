@@ -130,7 +130,7 @@ TEST(Layout, PaddingIsZero) {
   const Cells cells = integrate_cells(random_medium(1, {}), {n, 0, 1});
   const Table table(cells, plain_request(false), 1, means());
   for (Direction d : {Direction::ascending, Direction::descending}) {
-    const float* entry = table.buffer(d, 0).get();
+    const float* entry = table.buffer(d, 0);
     for (int row = 0; row < n; ++row) {
       const std::int64_t end = row == 0 ? table_entries(n) : row_start(n, row - 1);
       for (std::int64_t k = row_start(n, row) + n - row; k < end; ++k)

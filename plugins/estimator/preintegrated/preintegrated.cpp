@@ -23,9 +23,11 @@ constexpr Parameter parameters[] = {{"table_size", ParameterType::integer, "", "
 
 class Preintegrated : public EstimatorPlugin {
  public:
-  EstimatorDeclaration declaration(const ParameterSet&) const override {
+  EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
+    // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
+    d.cuts_diracs = p.text("lookup") == "corrected";
     d.mean_bins = mean_bins;
     for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
     d.handles |= Terms::rgb_bit | Terms::dirac_bit;

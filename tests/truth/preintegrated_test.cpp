@@ -1,0 +1,140 @@
+// Full pre-integration against the exact integral: docs/math, tables G.1 and G.2, on every backend.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/support/golden_case.h"
+#include "tests/support/render.h"
+
+namespace dvrlab::test {
+namespace {
+
+using nlohmann::json;
+
+#define SKIP_WHEN_NOT_SUPPORTED(...)                    \
+  try {                                                 \
+    __VA_ARGS__;                                        \
+  } catch (const NotSupported& reason) {                \
+    GTEST_SKIP() << "not supported: " << reason.what(); \
+  }
+
+class Preintegrated : public testing::TestWithParam<Target> {
+ protected:
+  void SetUp() override {
+    if (golden().is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
+  }
+  FrameImage exact(json config) {
+    config["estimator"] = {{"type", "exact"}};
+    return render(config, GetParam()).image;
+  }
+  FrameImage image(json config, int n, const char* lookup = "corrected") {
+    config["estimator"] = {{"type", "preintegrated"}, {"table_size", n}, {"lookup", lookup}};
+    config["optical_model"].erase("tf");
+    // The grid of table G: n values from 0 to 1.
+    config["optical_model"]["tf_range"] = {0, 1};
+    return render(config, GetParam()).image;
+  }
+  /// The worst error over both directions and the numbers of segments.
+  double worst(const std::string& medium, int n, const std::vector<int>& segments, const char* lookup = "corrected") {
+    double e = 0;
+    for (bool backwards : {false, true}) {
+      const FrameImage truth = exact(golden_medium_config(medium, 1, backwards));
+      for (int N : segments)
+        e = std::max(e, largest_difference(image(golden_medium_config(medium, N, backwards), n, lookup), truth));
+    }
+    return e;
+  }
+};
+
+struct Row {
+  const char* medium;
+  double at_256, at_1024;
+};
+const std::vector<int> many{16, 64, 256, 1024};
+constexpr double rounding = 1024 * 0x1p-24 / 8;
+
+// Table G.2, column `corr`, within twice its numbers; fp32 adds its roundings, a part of 2^-24 per segment.
+TEST_P(Preintegrated, CorrectedLookUp) {
+  for (const Row& row : {Row{"ramp", 7.0e-6, 4.7e-7}, Row{"peak", 6.1e-3, 5.2e-4}, Row{"box", 2.1e-4, 1.1e-5},
+                         Row{"delta", 1.0e-3, 9.4e-4}, Row{"surfpeak", 2.3e-4, 1.7e-5}}) {
+    SKIP_WHEN_NOT_SUPPORTED({
+      const double a = worst(row.medium, 256, many), b = worst(row.medium, 1024, many);
+      std::printf("corrected, %-8s: %.2e at n = 256 (table %.1e), %.2e at 1024 (%.1e)\n", row.medium, a, row.at_256, b,
+                  row.at_1024);
+      EXPECT_LE(a, 2 * row.at_256 + rounding) << row.medium;
+      EXPECT_LE(b, 2 * row.at_1024 + rounding) << row.medium;
+    })
+  }
+}
+
+// G.1: the same for interpolated radiance and transmittance; worse by orders for surfaces.
+TEST_P(Preintegrated, PlainLookUp) {
+  for (const Row& row : {Row{"ramp", 5.9e-6, 3.7e-7}, Row{"peak", 1.5e-2, 1.1e-3}, Row{"box", 5.2e-3, 2.6e-4},
+                         Row{"delta", 2.2e-2, 1.6e-2}, Row{"surfpeak", 4.4e-2, 7e-3}}) {
+    SKIP_WHEN_NOT_SUPPORTED({
+      const double a = worst(row.medium, 256, many, "plain"), b = worst(row.medium, 1024, many, "plain");
+      std::printf("plain, %-8s: %.2e at n = 256 (table %.1e), %.2e at 1024 (%.1e)\n", row.medium, a, row.at_256, b,
+                  row.at_1024);
+      EXPECT_LE(a, 2 * row.at_256 + rounding) << row.medium;
+      EXPECT_LE(b, 2 * row.at_1024 + rounding) << row.medium;
+    })
+  }
+}
+
+// A ramp of values: the error is the table's, whatever the step.
+TEST_P(Preintegrated, IndependentOfTheStep){SKIP_WHEN_NOT_SUPPORTED({
+  for (int N : {4, 13, 100, 1000}) {
+    const double e = worst("smooth", 1024, {N});
+    std::printf("smooth medium in %d segments: %.2e\n", N, e);
+    EXPECT_LE(e, 5e-6) << N;
+  }
+})}
+
+// The last segment of a ray is shorter than the table's: the corrected look-up keeps its own length.
+TEST_P(Preintegrated, SegmentsOfAnotherLength){SKIP_WHEN_NOT_SUPPORTED({
+  for (const char* lookup : {"corrected", "plain"}) {
+    json config = golden_medium_config("ramp", 1, false);
+    const FrameImage truth = exact(config);
+    config["sampling"]["step"] = 0.15;  // six of 0.15 and one of 0.1
+    const double e = largest_difference(image(config, 1024, lookup), truth);
+    std::printf("last segment of two thirds, %s: %.2e\n", lookup, e);
+    EXPECT_LE(e, 2e-4);
+  }
+})}
+
+// Light factors that vary inside a segment: front and back parts; and everything at once, RGB extinction included.
+TEST_P(Preintegrated, WeightedPartsAreGolden) {
+  for (const char* id : {"hybrid_shaded_up", "hybrid_up", "hernell_lit", "pure_emission", "kraus_short"}) {
+    const json g = golden_case(id);
+    SKIP_WHEN_NOT_SUPPORTED({
+      const RayIntegral truth = golden_integral(g);
+      // A table's ratio belongs to its own length: beside a Dirac term, where segments are cut, they must not be deep.
+      for (int N : {g["params"].contains("diracs") ? 3 : 1, 10}) {
+        const FrameImage r = image(golden_config(g, N), 1024);
+        double e = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+          e = std::max({e, std::abs(r.color[c] - truth.I[c]), std::abs(r.trans[c] - truth.T[c])});
+        std::printf("%s in %d segments: %.2e\n", id, N, e);
+        EXPECT_LE(e, N == 3 ? 2e-3 : 2e-4) << id;
+      }
+    })
+  }
+}
+
+// The error falls with the square of the number of values.
+TEST_P(Preintegrated, SecondOrderInTheTable){SKIP_WHEN_NOT_SUPPORTED({
+  const double a = worst("peak", 256, many), b = worst("peak", 1024, many);
+  std::printf("peak: %.2e at 256, %.2e at 1024 values\n", a, b);
+  EXPECT_GE(a / b, 8);
+  EXPECT_LE(a / b, 30);
+})}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Preintegrated, testing::ValuesIn(targets()), [](const auto& instance) {
+  std::string name = instance.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '.'; }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace dvrlab::test
