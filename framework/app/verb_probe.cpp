@@ -2,6 +2,7 @@
 
 #include "framework/app/single_case.h"
 #include "framework/app/verbs.h"
+#include "framework/interfaces/error.h"
 #include "framework/render_case.h"
 #include "framework/report/pretty_json.h"
 #include "framework/report/text_table.h"
@@ -45,11 +46,18 @@ nlohmann::ordered_json json_of(const std::vector<ProbeSegment>& segments, const 
   return list;
 }
 
+void require_pixel(int x, int y, const nlohmann::json& size) {
+  if (x >= 0 && y >= 0 && x < size[0].get<int>() && y < size[1].get<int>()) return;
+  throw InputError("--pixel: " + std::to_string(x) + "," + std::to_string(y) + " is outside the image of " +
+                   size[0].dump() + " x " + size[1].dump() + " pixels");
+}
+
 }  // namespace
 
 int probe_verb(const Options& o) {
   const Registry registry(o.plugin_path);
   const PlannedCase planned = single_case(o, registry);
+  require_pixel(o.pixel.at(0), o.pixel.at(1), planned.resolved.image.json("size"));
   CaseRecord record;
   record.plan = &planned;
   CaseRenderer renderer(registry);
