@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "framework/config/axes.h"
@@ -63,6 +64,11 @@ bool range_numbers(const ConfigJson& range, std::size_t count) {
   return true;
 }
 
+/// As it would be written: whole numbers without a point, so that keys that take nothing else can be varied.
+ConfigJson number_of(double x) {
+  return x == std::floor(x) && std::abs(x) < 9e15 ? ConfigJson(static_cast<std::int64_t>(x)) : ConfigJson(x);
+}
+
 /// The numbers of {"lin" | "log2" | "log10": [...]}; empty when it is none of these.
 std::vector<double> range_values(const ConfigJson& v) {
   std::vector<double> values;
@@ -92,7 +98,7 @@ std::vector<AxisValue> axis_values(const ConfigTree& tree, const std::string& pa
   if (written.is_array()) {
     for (std::size_t i = 0; i < written.size(); ++i) values.push_back({written[i], "", child_path(path, i)});
   } else {
-    for (const double x : range_values(written)) values.push_back({ConfigJson(x), "", child_path(path, values.size())});
+    for (const double x : range_values(written)) values.push_back({number_of(x), "", child_path(path, values.size())});
   }
   if (values.empty()) {
     problems.add(
