@@ -4,6 +4,7 @@
 #include "framework/app/verbs.h"
 #include "framework/interfaces/error.h"
 #include "framework/render_case.h"
+#include "framework/report/number_text.h"
 #include "framework/report/pretty_json.h"
 #include "framework/report/text_table.h"
 #include "framework/scene/probe.h"
@@ -11,11 +12,7 @@
 namespace dvrlab {
 namespace {
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
+std::string number(double x) { return number_text(x, 9); }
 
 std::string triple(const std::array<double, 3>& v) { return number(v[0]) + " " + number(v[1]) + " " + number(v[2]); }
 
@@ -56,11 +53,12 @@ void require_pixel(int x, int y, const nlohmann::json& size) {
 
 int probe_verb(const Options& o) {
   const Registry registry(o.plugin_path);
-  const PlannedCase planned = single_case(o, registry);
+  CaseRenderer renderer(registry);  // looks at the memory before data takes some of it
+  const auto [planned, field] = single_case(o, registry);
+  if (field != nullptr) renderer.keep(planned.resolved, field);
   require_pixel(o.pixel.at(0), o.pixel.at(1), planned.resolved.image.json("size"));
   CaseRecord record;
   record.plan = &planned;
-  CaseRenderer renderer(registry);
   const Scene& scene = renderer.scene(planned.resolved, record);
   const std::vector<ProbeSegment> segments = probe_ray(scene, registry, o.pixel.at(0), o.pixel.at(1));
   std::fputs(

@@ -16,10 +16,11 @@ int render_verb(const Options& o) {
     throw InputError("-o " + o.output + ": the image's name must end in .exr or .png");
   require_writable(o.output);
   const Registry registry(o.plugin_path);
-  const PlannedCase planned = single_case(o, registry);
+  CaseRenderer renderer(registry);  // looks at the memory before data takes some of it
+  const auto [planned, field] = single_case(o, registry);
+  if (field != nullptr) renderer.keep(planned.resolved, field);
   CaseRecord record;
   record.plan = &planned;
-  CaseRenderer renderer(registry);
   const Scene& scene = renderer.scene(planned.resolved, record);
   const FrameImage image = renderer.render(planned.resolved, scene, record);
   record.ran = true;

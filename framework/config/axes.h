@@ -9,6 +9,9 @@
 
 namespace dvrlab {
 
+/// That a range may have.
+inline constexpr int most_axis_values = 10000;
+
 struct AxisValue {
   ConfigJson value;
   std::string label;  // readable, safe in file names; other values of the key have other labels: "preintegrated", "0.5"

@@ -23,6 +23,8 @@ LoadContext load_context(const ResolvedCase& c) {
   return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
 }
 
+std::string field_key(const ResolvedCase& c) { return c.config.at("data").dump() + "|" + c.base_folder; }
+
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
   const std::string wanted = c.data.parameters.text("sampler");
@@ -133,13 +135,17 @@ void add_skipping(bool wanted, const Field& field, const Medium& medium, const M
 }  // namespace
 
 std::shared_ptr<const Field> FieldCache::load(const ResolvedCase& c, const Registry& registry) {
-  const std::string key = c.config.at("data").dump() + "|" + c.base_folder;
+  const std::string key = field_key(c);
   for (const auto& [known, field] : entries_)
     if (known == key) return field;
   auto field = registry.get<DataPlugin>("data", c.data.type, "data.type").load(c.data.parameters, load_context(c));
-  entries_.clear();  // one field at a time: the axes run data outermost, and memory is what limits
-  entries_.emplace_back(key, field);
+  keep(c, field);
   return field;
+}
+
+void FieldCache::keep(const ResolvedCase& c, std::shared_ptr<const Field> field) {
+  entries_.clear();  // one field at a time: the axes run data outermost, and memory is what limits
+  entries_.emplace_back(field_key(c), std::move(field));
 }
 
 void check_case(const ResolvedCase& c, const Registry& registry, Problems& problems) {
@@ -175,11 +181,15 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
   KernelUnit unused;
   part([&] { add_camera(c.camera, box, 2, 2, unused); });
   for (const Section& plane : c.clip) part([&] { add_clipping({plane}, box, unused); });
+  ResolvedCase alone;  // a light, then the passes
+  alone.camera = c.camera;
   for (const Section& light : c.lights) {
-    ResolvedCase alone = c;
     alone.lights = {light};
     part([&] { local_shading(alone, registry, box, false); });
   }
+  alone.lights.clear();
+  alone.illumination = c.illumination;
+  part([&] { local_shading(alone, registry, box, false); });
 }
 
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory) {

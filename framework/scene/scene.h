@@ -27,6 +27,8 @@ struct Scene {
 class FieldCache {
  public:
   std::shared_ptr<const Field> load(const ResolvedCase& c, const Registry& registry);
+  /// What load() would load for this case, for who has it already.
+  void keep(const ResolvedCase& c, std::shared_ptr<const Field> field);
 
  private:
   std::vector<std::pair<std::string, std::shared_ptr<const Field>>> entries_;

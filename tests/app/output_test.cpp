@@ -9,7 +9,7 @@ namespace {
 using Output = Program;
 
 // A limit of the file size stands for a full disk: a write fails half way.
-constexpr const char* little = "trap '' XFSZ; ulimit -f 1; ";
+constexpr const char* little = "trap '' XFSZ; ulimit -f 8; ";
 
 TEST_F(Output, AnOldFileSurvivesAFullDisk) {
   write("s.json", "old");

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 
 #include "framework/interfaces/error.h"
+#include "framework/report/number_text.h"
 
 namespace dvrlab::nifti {
 namespace {
@@ -23,12 +23,6 @@ T load(std::span<const std::byte> file, std::size_t offset, bool swap) {
   T x;
   std::memcpy(&x, b.data(), sizeof(T));
   return x;
-}
-
-std::string number_text(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
 }
 
 SourceType source_type(int datatype, const std::string& name) {
@@ -207,7 +201,7 @@ std::uint64_t read_voxel_offset(std::span<const std::byte> file, bool swap, cons
     return least;
   }
   if (!(offset >= double(least) && offset <= most) || offset != std::floor(offset))
-    throw InputError(name + ": vox_offset is " + number_text(offset) + "; it must be a whole number of at least " +
+    throw InputError(name + ": vox_offset is " + number_text(offset, 9) + "; it must be a whole number of at least " +
                      std::to_string(least) + ", the header and the 4 bytes behind it");
   return static_cast<std::uint64_t>(offset);
 }
