@@ -23,7 +23,8 @@ class KeyCheck {
       for (const auto& [key, inner] : value.items()) {
         const std::string here = child_path(path, key);
         if (key.empty()) {
-          problems_.add(tree_.where(here) + ": found the key \"\"; a key has a name");
+          // At the top the path is empty too, and the place ends with its colon already.
+          problems_.add(tree_.where(here) + (here.empty() ? "" : ": ") + "found the key \"\"; a key has a name");
         } else if (!free && key.find_first_of(".[") != std::string::npos) {
           problems_.add(tree_.where(here) + ": found the key " + short_text(key) +
                         "; key paths are possible in axes, reference, where and --set only (write sections within "

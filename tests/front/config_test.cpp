@@ -106,7 +106,7 @@ TEST(Config, SetOverridesAndSpeaksUp) {
 }
 
 TEST(Config, KeysThatWouldVanishAreRefused) {
-  expect_error(small_config(R"(, "": 5)"), {"test.json:9:3", "found the key \"\"", "a key has a name"});
+  expect_error(small_config(R"(, "": 5)"), {"test.json:9:3: found the key \"\"", "a key has a name"});
   expect_error(small_config(R"(, "sampling": {"": 5})"), {"test.json:9:16: sampling.: found the key \"\""});
   for (const char* key : {"step.", ".step", "step[0]", "["}) {
     const std::string text = std::string(R"(, "sampling": {")") + key + R"(": 5})";

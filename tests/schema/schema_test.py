@@ -44,7 +44,7 @@ RIGHT = {
                                     "expect": [{"metric": "psnr", "against": "fine", "at_least": 1,
                                                 "where": {"sampling.step": 1}}]},
     "keys that vary together": {"axes": {"permutation": {"zip": [{"sampling.step": [1, 2], "seed": [1, 2]}]}}},
-    "whole numbers of a range": {"axes": {"permutation": {"image.size[0]": {"lin": [4, 8, 3]}}}},
+    "whole numbers of a range": {"image": {"size": [8, 8]}, "axes": {"permutation": {"image.size[0]": {"lin": [4, 8, 3]}}}},
     "four lights": {"lights": [{"type": "head"}] * 4},
     "null nodes": {"optical_model.opacity": None, "optical_model.emission": "null"},
 }
