@@ -20,6 +20,9 @@ class CaseRenderer {
  public:
   explicit CaseRenderer(const Registry& registry);
 
+  /// For who has loaded the case's data already.
+  void keep(const ResolvedCase& c, std::shared_ptr<const Field> field) { fields_.keep(c, std::move(field)); }
+
   /// Scene stage. Throws NotSupported for optional data that is missing; else what build_scene throws.
   const Scene& scene(const ResolvedCase& c, CaseRecord& record);
 

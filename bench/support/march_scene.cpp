@@ -12,7 +12,6 @@ namespace {
 
 ResolvedCase resolve(const std::vector<std::string>& set) {
   const Experiment e = plan_experiment(load_document(DVRLAB_BENCH_FOLDER "/configs/march_table.json", set), registry());
-  check_case(e.cases.front().resolved, registry());
   return e.cases.front().resolved;
 }
 

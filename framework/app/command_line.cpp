@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "framework/app/cli_model.h"
@@ -15,6 +16,13 @@ namespace dvrlab {
 namespace {
 
 using VerbFunction = int (*)(const Options&);
+
+/// CLI11's own check prints the largest double with all its digits.
+std::string not_negative(std::string& word) {
+  char* end = nullptr;
+  const double x = std::strtod(word.c_str(), &end);
+  return end == word.c_str() + word.size() && x >= 0 ? "" : "found " + word + ", must be a number of at least 0";
+}
 
 /// The definition; everything else about the command line is derived from it.
 struct Definition {
@@ -55,7 +63,7 @@ struct Definition {
     option(compare, "a", o.a, "A", "EXR file or case folder")->required();
     option(compare, "b", o.b, "B", "the reference: EXR file or case folder")->required();
     option(compare, "--tolerance", o.tolerance, "X", "largest absolute difference that counts as equal; 0: every bit")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Validator(not_negative, ""));
 
     CLI::App& probe = add("probe", probe_verb);
     config(probe);

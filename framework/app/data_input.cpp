@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "framework/config/override.h"
 #include "framework/config/resolve.h"
 #include "framework/interfaces/error.h"
 #include "framework/scene/memory_bill.h"
@@ -40,8 +41,10 @@ void refuse_data(const std::string& path, const Registry& registry) {
 }
 
 ConfigDocument data_document(const std::string& path, const std::vector<std::string>& set, const Registry& registry) {
-  const ConfigJson section = {{"type", reader_of(path, registry)}, {"file", path}};
-  return parse_document(ConfigJson({{"data", section}}).dump(), path, "", set);
+  ConfigDocument document = parse_document("{}", path, "");
+  document.tree.root["data"] = {{"type", reader_of(path, registry)}, {"file", path}};  // has no place: nobody wrote it
+  for (const std::string& assignment : set) override_key(document.tree, assignment);
+  return document;
 }
 
 LoadedData load_data(const ConfigDocument& document, const Registry& registry) {
@@ -62,5 +65,7 @@ LoadedData load_data(const ConfigDocument& document, const Registry& registry) {
     throw InputError(document.tree.located(e.what()));
   }
 }
+
+std::string unit_text(const Field& f) { return f.length_unit.empty() ? "world units" : f.length_unit; }
 
 }  // namespace dvrlab

@@ -28,4 +28,7 @@ struct LoadedData {
 /// NotSupported when the memory is too small.
 LoadedData load_data(const ConfigDocument& document, const Registry& registry);
 
+/// The unit of the field's lengths: "mm", or "world units" where it is not known.
+std::string unit_text(const Field& field);
+
 }  // namespace dvrlab

@@ -70,6 +70,7 @@ Doctor examine(const Registry& registry) {
   d.backends = examine_backends(registry);
   d.modules = examine_modules(registry);
   d.folders = examine_folders(registry);
+  d.missing_folders = registry.missing_roots();
   for (const PluginEntryInfo& e : registry.entries())
     if (e.descriptor == nullptr) d.broken.push_back({e.kind + "/" + e.name, e.problem});
   d.not_built = not_built();

@@ -43,6 +43,7 @@ struct Doctor {
   std::vector<BackendFinding> backends;
   std::vector<ModuleFinding> modules;
   std::vector<FolderFinding> folders;
+  std::vector<std::string> missing_folders;  // "DVRLAB_PLUGIN_PATH: there is no folder '/nope'"
   std::vector<PluginProblem> broken, not_built;
   CacheFinding cache;
   std::uint64_t memory_total = 0, memory_available = 0;  // bytes; 0: the system does not tell

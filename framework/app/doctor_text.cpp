@@ -65,6 +65,7 @@ std::string missing_text(const Doctor& d) {
     text += std::string(indent) + "backend " + b.name +
             (b.report.package.empty() ? ": see above" : ": apt-get install " + b.report.package) + "\n";
   }
+  for (const std::string& folder : d.missing_folders) text += indent + folder + "\n";
   for (const PluginProblem& p : d.broken)
     text += std::string(indent) + "broken plugin " + p.plugin + " " + p.reason + "\n";
   for (const PluginProblem& p : d.not_built)
@@ -120,6 +121,7 @@ nlohmann::ordered_json doctor_json(const Doctor& d) {
           {"backends", backends},
           {"kernel_modules", modules},
           {"plugin_folders", folders},
+          {"missing_plugin_folders", d.missing_folders},
           {"broken_plugins", problems(d.broken)},
           {"plugins_not_built", problems(d.not_built)},
           {"cache",

@@ -80,7 +80,9 @@ std::string overview(const ProgramModel& program) {
     text += row(v.name, v.summary);
   }
   text += section("General options", program.options, false);
-  return text + exit_code_rows() + "\n`dvrlab help VERB` has examples. People read stderr; --json is for programs.\n";
+  return text + exit_code_rows() +
+         "\n`dvrlab help VERB` has examples. Answers go to stdout, with --json for programs; "
+         "the log and errors go to stderr.\n";
 }
 
 std::string verb_help(const ProgramModel& program, const std::string& verb) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "framework/report/byte_text.h"
+#include "framework/report/number_text.h"
 #include "framework/report/text_table.h"
 #include "framework/scene/orientation.h"
 #include "framework/scene/vector.h"
@@ -30,14 +31,10 @@ const char* type_text(VoxelType type) {
   return "";
 }
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
+std::string by(const Vector3& v) { return number_text(v[0]) + " x " + number_text(v[1]) + " x " + number_text(v[2]); }
+std::string point(const Vector3& v) {
+  return "(" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + ")";
 }
-
-std::string by(const Vector3& v) { return number(v[0]) + " x " + number(v[1]) + " x " + number(v[2]); }
-std::string point(const Vector3& v) { return "(" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + ")"; }
 
 /// World lengths of the field's box along its own axes.
 Vector3 box_of(const Field& f) {
@@ -69,7 +66,7 @@ std::string bars(const Histogram& all, int bins) {
     char share[16];
     std::snprintf(share, sizeof share, "%.2f %%",
                   100.0 * static_cast<double>(h.count[b]) / static_cast<double>(h.total));
-    rows.push_back({number(h.value(b)), std::to_string(h.count[b]), share,
+    rows.push_back({number_text(h.value(b)), std::to_string(h.count[b]), share,
                     std::string(static_cast<std::size_t>(std::lround(length)), '#')});
   }
   return text_table(rows);
@@ -87,7 +84,7 @@ InfoReport make_info(LoadedData data) {
 
 std::string info_text(const InfoReport& info, int bins) {
   const Field& f = *info.data.field;
-  const std::string unit = f.length_unit.empty() ? "world units" : f.length_unit;
+  const std::string unit = unit_text(f);
   std::vector<std::vector<std::string>> rows = {{"reader", info.data.type}};
   if (info.grid != nullptr) {
     const auto& d = info.grid->dims;
@@ -98,9 +95,9 @@ std::string info_text(const InfoReport& info, int bins) {
     rows.push_back({"grid", "none: the field is evaluated at every sample (sampler " + f.sampler + ")"});
   }
   const auto range = range_of(f);
-  rows.push_back({"values", number(range[0]) + " to " + number(range[1])});
+  rows.push_back({"values", number_text(range[0]) + " to " + number_text(range[1])});
   if (f.slope != 1 || f.intercept != 0)
-    rows.push_back({"scaling", "value = " + number(f.slope) + " * stored + " + number(f.intercept)});
+    rows.push_back({"scaling", "value = " + number_text(f.slope) + " * stored + " + number_text(f.intercept)});
   const auto axes = axis_directions(f);
   if (info.grid != nullptr) {
     rows.push_back({"spacing", by({axes[0].spacing, axes[1].spacing, axes[2].spacing}) + " " + unit});
@@ -117,8 +114,8 @@ std::string info_text(const InfoReport& info, int bins) {
   const Histogram& h = *info.histogram;
   std::vector<std::vector<std::string>> shares = {{"share of voxels"}, {"have at most"}};
   for (double q : quantiles) {
-    shares[0].push_back(number(100 * q) + " %");
-    shares[1].push_back(number(h.quantile(q)));
+    shares[0].push_back(number_text(100 * q) + " %");
+    shares[1].push_back(number_text(h.quantile(q)));
   }
   return text + "\n" + text_table(shares) + "\n" + bars(h, bins);
 }

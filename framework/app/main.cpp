@@ -22,7 +22,10 @@ void print_errors(const std::string& lines) {
 
 int main(int argc, char** argv) {
   try {
-    return dvrlab::run_command_line(argc, argv);
+    const int code = dvrlab::run_command_line(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    print_errors("stdout: cannot be written (is the disk full?)");
+    return 3;
   } catch (const dvrlab::InputError& e) {
     print_errors(e.what());
     return 2;

@@ -58,7 +58,8 @@ std::string man_page(const ProgramModel& program) {
   text += ".SH DESCRIPTION\n" +
           roff(
               "Optical models, estimators, samplers, illumination, file readers, metrics and backends are plugins; an "
-              "experiment is one JSON file. People read stderr; programs read stdout, with --json. The examples start "
+              "experiment is one JSON file. Answers go to stdout, with --json for programs; the log and errors go to "
+              "stderr. The examples start "
               "from the root of the sources.") +
           "\n.SH OPTIONS\n" + options_text(program.options) + ".SH VERBS\n";
   for (const VerbModel& v : program.verbs) text += verb_text(program, v);

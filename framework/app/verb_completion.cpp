@@ -29,6 +29,7 @@ std::vector<std::string> types(const Registry& registry) {
   }
   for (const SectionType& s : section_types())
     words.push_back(*s.type == '\0' ? s.section : std::string(s.section) + "." + s.type);
+  words.insert(words.end(), top_sections().begin(), top_sections().end());
   return words;
 }
 

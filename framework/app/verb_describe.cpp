@@ -3,6 +3,7 @@
 
 #include "framework/app/verbs.h"
 #include "framework/config/check_value.h"
+#include "framework/config/schema.h"
 #include "framework/config/sections.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
@@ -15,8 +16,27 @@ namespace {
 struct Described {
   std::string kind, name, version, summary, citation;
   std::vector<Parameter> keys;
-  std::vector<Parameter> shared;  // keys that all of the kind have
+  std::vector<Parameter> shared;                                // keys that all of the kind have
+  std::vector<std::pair<std::string, std::string>> parts = {};  // of a section: its types, or keys; with a sentence
 };
+
+/// What a section of the config is, and what it may hold; its sentences are the schema's.
+Described section_of(const std::string& section, const std::vector<Described>& types,
+                     const nlohmann::ordered_json& schema) {
+  const nlohmann::ordered_json& entry = schema["properties"][section];
+  Described d{section, "", "", entry["description"].get<std::string>(), "", {}, {}};
+  const std::string kind = section == "metrics" ? "metric" : section;
+  for (const Described& t : types) {
+    if (t.kind == kind && !t.name.empty()) d.parts.emplace_back(kind + "." + t.name, t.summary);
+    if (t.kind == kind && t.name.empty()) d.keys = t.keys;
+  }
+  if (section != "axes") return d;
+  for (const auto& [key, part] : entry["properties"].items())
+    d.parts.emplace_back(key, part["description"].get<std::string>());
+  for (const auto& [key, range] : schema["definitions"]["range"]["properties"].items())
+    d.parts.emplace_back("{\"" + key + "\": ...}", "values, " + range["description"].get<std::string>());
+  return d;
+}
 
 std::vector<Described> everything(const Registry& registry) {
   std::vector<Described> all;
@@ -33,6 +53,11 @@ std::vector<Described> everything(const Registry& registry) {
                    common != nullptr ? common->keys : std::vector<Parameter>{}});
   }
   for (const SectionType& s : section_types()) all.push_back({s.section, s.type, "", s.summary, "", s.keys, {}});
+  const nlohmann::ordered_json schema = config_schema(registry);
+  std::vector<Described> sections;
+  for (const std::string& section : top_sections()) sections.push_back(section_of(section, all, schema));
+  std::erase_if(all, [](const Described& d) { return d.name.empty() && d.kind != "case"; });  // now among the sections
+  all.insert(all.end(), sections.begin(), sections.end());
   return all;
 }
 
@@ -75,7 +100,13 @@ nlohmann::json key_list(const std::vector<Parameter>& keys) {
 std::string text_of(const Described& d) {
   std::string text = full_name(d) + (d.version.empty() ? "" : " " + d.version) + "\n" + d.summary + "\n";
   if (!d.citation.empty()) text += "Source: " + d.citation + "\n";
-  if (!d.keys.empty()) text.append("\n").append(key_table(d.keys));
+  if (!d.parts.empty()) {
+    std::vector<std::vector<std::string>> rows = {{d.kind == "axes" ? "key or value" : "type", "what it is"}};
+    for (const auto& [name, sentence] : d.parts) rows.push_back({name, sentence});
+    text += "\n" + text_table(rows);
+  }
+  if (!d.keys.empty() && !d.parts.empty()) text += "\nshared by every type:\n" + key_table(d.keys);
+  if (!d.keys.empty() && d.parts.empty()) text.append("\n").append(key_table(d.keys));
   if (!d.shared.empty()) text += "\nshared by every " + d.kind + ":\n" + key_table(d.shared);
   return text;
 }
@@ -97,7 +128,9 @@ int describe_verb(const Options& o) {
         registry.find(e.kind, e.name);  // says what is wrong with it
     }
     std::erase_if(names, [](const std::string& n) {
-      return n.find('.') == std::string::npos && find_section_type(n, "") == nullptr;
+      const std::vector<std::string>& sections = top_sections();
+      return n.find('.') == std::string::npos && n != "case" &&
+             std::find(sections.begin(), sections.end(), n) == sections.end();
     });
     std::sort(names.begin(), names.end());
     std::string last_part = o.name.substr(o.name.find('.') + 1);
@@ -113,6 +146,8 @@ int describe_verb(const Options& o) {
   std::string text;
   for (const Described& d : found) {
     if (!text.empty()) text += "\n";
+    nlohmann::json parts = nlohmann::json::array();
+    for (const auto& [name, sentence] : d.parts) parts.push_back({{"name", name}, {"summary", sentence}});
     text += text_of(d);
     list.push_back({{"kind", d.kind},
                     {"name", d.name},
@@ -120,7 +155,8 @@ int describe_verb(const Options& o) {
                     {"summary", d.summary},
                     {"citation", d.citation},
                     {"parameters", key_list(d.keys)},
-                    {"shared", key_list(d.shared)}});
+                    {"shared", key_list(d.shared)},
+                    {"parts", parts}});
   }
   std::fputs(o.json ? (list.dump(1) + "\n").c_str() : text.c_str(), stdout);
   return 0;

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "framework/app/info_report.h"
 #include "framework/app/starter.h"
@@ -17,13 +16,7 @@ constexpr int bins_for_people = 20, bins_for_machines = 256;
 
 void write_starter(const Options& o, const LoadedData& data) {
   const std::filesystem::path file = std::filesystem::absolute(o.starter);
-  const std::string text = starter_config(data, file.parent_path().string());
-  write_atomically(file.string(), [&](const std::string& temporary) {
-    std::ofstream out(temporary);
-    out << text;
-    out.close();
-    if (!out) throw std::runtime_error(o.starter + ": cannot be written");
-  });
+  write_text_atomically(o.starter, starter_config(data, file.parent_path().string()));
   log_line("config", o.starter + " renders this data: dvrlab render " + o.starter + " -o image.png");
 }
 
@@ -34,6 +27,9 @@ int info_verb(const Options& o) {
   std::error_code ec;
   if (!o.starter.empty() && !o.force && std::filesystem::exists(o.starter, ec))
     throw InputError("--starter " + o.starter + ": the file exists; --force overwrites it");
+  if (std::filesystem::equivalent(o.starter, o.config, ec))
+    throw InputError("--starter " + o.starter + ": is the data itself; name another file");
+  if (!o.starter.empty()) require_writable(o.starter);
   const Registry registry(o.plugin_path);
   const bool data_alone = names_data(o.config, registry);
   if (!data_alone && !o.starter.empty())

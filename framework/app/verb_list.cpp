@@ -6,6 +6,7 @@
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
 #include "framework/plugin/registry.h"
+#include "framework/report/log.h"
 #include "framework/report/text_table.h"
 
 namespace dvrlab {
@@ -19,6 +20,10 @@ std::vector<Row> everything(const Registry& registry) {
   std::vector<Row> rows;
   for (const PluginEntryInfo& e : registry.entries()) {
     const PluginDescriptor* d = e.descriptor;
+    const bool said = std::any_of(rows.begin(), rows.end(), [&](const Row& r) {  // both halves of a duplicate
+      return !e.problem.empty() && r.kind == e.kind && r.name == e.name && r.problem == e.problem;
+    });
+    if (said) continue;
     rows.push_back({e.kind, e.name, d != nullptr ? d->version : "", d != nullptr ? d->summary : "", e.problem});
   }
   for (const SectionType& s : section_types()) {
@@ -31,7 +36,8 @@ std::vector<Row> everything(const Registry& registry) {
 }  // namespace
 
 int list_verb(const Options& o) {
-  const Registry registry(o.plugin_path);
+  const Registry registry(o.plugin_path, MissingRoots::found);
+  for (const std::string& missing : registry.missing_roots()) log_line("plugins", missing);
   std::vector<Row> rows = everything(registry);
   if (!o.name.empty()) {
     std::vector<std::string> kinds;

@@ -2,7 +2,9 @@
 
 #include "framework/app/single_case.h"
 #include "framework/app/verbs.h"
+#include "framework/interfaces/error.h"
 #include "framework/render_case.h"
+#include "framework/report/number_text.h"
 #include "framework/report/pretty_json.h"
 #include "framework/report/text_table.h"
 #include "framework/scene/probe.h"
@@ -10,11 +12,7 @@
 namespace dvrlab {
 namespace {
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
+std::string number(double x) { return number_text(x, 9); }
 
 std::string triple(const std::array<double, 3>& v) { return number(v[0]) + " " + number(v[1]) + " " + number(v[2]); }
 
@@ -45,14 +43,22 @@ nlohmann::ordered_json json_of(const std::vector<ProbeSegment>& segments, const 
   return list;
 }
 
+void require_pixel(int x, int y, const nlohmann::json& size) {
+  if (x >= 0 && y >= 0 && x < size[0].get<int>() && y < size[1].get<int>()) return;
+  throw InputError("--pixel: " + std::to_string(x) + "," + std::to_string(y) + " is outside the image of " +
+                   size[0].dump() + " x " + size[1].dump() + " pixels");
+}
+
 }  // namespace
 
 int probe_verb(const Options& o) {
   const Registry registry(o.plugin_path);
-  const PlannedCase planned = single_case(o, registry);
+  CaseRenderer renderer(registry);  // looks at the memory before data takes some of it
+  const auto [planned, field] = single_case(o, registry);
+  if (field != nullptr) renderer.keep(planned.resolved, field);
+  require_pixel(o.pixel.at(0), o.pixel.at(1), planned.resolved.image.json("size"));
   CaseRecord record;
   record.plan = &planned;
-  CaseRenderer renderer(registry);
   const Scene& scene = renderer.scene(planned.resolved, record);
   const std::vector<ProbeSegment> segments = probe_ray(scene, registry, o.pixel.at(0), o.pixel.at(1));
   std::fputs(

@@ -2,6 +2,7 @@
 
 #include "framework/app/single_case.h"
 #include "framework/app/verbs.h"
+#include "framework/image/atomic_file.h"
 #include "framework/image/image_io.h"
 #include "framework/interfaces/error.h"
 #include "framework/render_case.h"
@@ -13,11 +14,13 @@ int render_verb(const Options& o) {
   const bool exr = o.output.ends_with(".exr");
   if (!exr && !o.output.ends_with(".png"))
     throw InputError("-o " + o.output + ": the image's name must end in .exr or .png");
+  require_writable(o.output);
   const Registry registry(o.plugin_path);
-  const PlannedCase planned = single_case(o, registry);
+  CaseRenderer renderer(registry);  // looks at the memory before data takes some of it
+  const auto [planned, field] = single_case(o, registry);
+  if (field != nullptr) renderer.keep(planned.resolved, field);
   CaseRecord record;
   record.plan = &planned;
-  CaseRenderer renderer(registry);
   const Scene& scene = renderer.scene(planned.resolved, record);
   const FrameImage image = renderer.render(planned.resolved, scene, record);
   record.ran = true;

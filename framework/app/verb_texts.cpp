@@ -31,7 +31,7 @@ const std::vector<VerbText>& verb_texts() {
        "the case: resolved config, device, counters, times",
        {{"dvrlab render data/engine.nrrd -o image.png", "a picture of a data file, without a config"},
         {"dvrlab render my.json -o image.exr", "a config's image as floats"},
-        {"dvrlab render my.json --set sampling.step=0.25 --set image.background=[1,1,1] -o fine.png",
+        {"dvrlab render my.json --set sampling.step=0.25 --set 'image.background=[1,1,1]' -o fine.png",
          "with other values for two keys"}}},
       {"run",
        images,
@@ -41,7 +41,7 @@ const std::vector<VerbText>& verb_texts() {
        "an earlier run is an experiment too: it renders the same image again.",
        "the summary: verdicts, times and differences of all cases",
        {{"dvrlab run configs/first_experiment.json", "results go to out/first_experiment"},
-        {"dvrlab run configs/first_experiment.json --set image.size=[128,128] --repeat 3 --out small",
+        {"dvrlab run configs/first_experiment.json --set 'image.size=[128,128]' --repeat 3 --out small",
          "smaller images, each timed three times, in small/first_experiment"},
         {"dvrlab run out/first_experiment/cases/sampling.step=1,backend=cpu/case.json --out again",
          "one case of an earlier run again"}}},
@@ -49,8 +49,7 @@ const std::vector<VerbText>& verb_texts() {
        images,
        "check a config and all its cases without rendering",
        "Resolves every case of a config against the declarations of its plugins and says everything that is wrong, "
-       "each "
-       "with file, line and column, the nearest legal name and the legal values. Data files are not read.",
+       "each with file, line and column, the nearest legal name and the legal values. Data files are not read.",
        "the ids of the cases, or the errors",
        {{"dvrlab validate my.json", "is the config right?"},
         {"dvrlab validate configs/quickstart.json --json", "the ids of all cases"}}},
@@ -82,11 +81,11 @@ const std::vector<VerbText>& verb_texts() {
        parts,
        "the parameters of a type: unit, default, legal values, source",
        "Describes a type of a config: what it is, where its method was published, and every key with unit, default, "
-       "legal "
-       "values and whether it changes pixels.",
+       "legal values and whether it changes pixels. Of a section it lists the types.",
        "the same as a list of types",
        {{"dvrlab describe absorption_emission", "a plugin"},
-        {"dvrlab describe sampling.uniform", "a type of the framework"},
+        {"dvrlab describe camera", "a section: its types"},
+        {"dvrlab describe camera.orbit", "a type of the framework"},
         {"dvrlab describe image --json", "a section without types, for programs"}}},
       {"new-plugin",
        parts,

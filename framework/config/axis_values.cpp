@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "framework/config/axes.h"
@@ -8,8 +9,6 @@
 
 namespace dvrlab {
 namespace {
-
-constexpr int max_values = 10000;
 
 std::string plain_label(const ConfigJson& v) {
   if (v.is_object()) return v.contains("type") && v["type"].is_string() ? v["type"].get<std::string>() : "section";
@@ -63,6 +62,11 @@ bool range_numbers(const ConfigJson& range, std::size_t count) {
   return true;
 }
 
+/// As it would be written: whole numbers without a point, so that keys that take nothing else can be varied.
+ConfigJson number_of(double x) {
+  return x == std::floor(x) && std::abs(x) < 9e15 ? ConfigJson(static_cast<std::int64_t>(x)) : ConfigJson(x);
+}
+
 /// The numbers of {"lin" | "log2" | "log10": [...]}; empty when it is none of these.
 std::vector<double> range_values(const ConfigJson& v) {
   std::vector<double> values;
@@ -71,7 +75,7 @@ std::vector<double> range_values(const ConfigJson& v) {
   const ConfigJson& range = v.begin().value();
   if (how == "lin" && range_numbers(range, 3)) {
     const double a = range[0].get<double>(), b = range[1].get<double>(), n = range[2].get<double>();
-    if (n < 2 || n > max_values || n != std::floor(n)) return values;
+    if (n < 2 || n > most_axis_values || n != std::floor(n)) return values;
     for (int i = 0; i < static_cast<int>(n); ++i) values.push_back(a + (b - a) * i / (n - 1));
   } else if ((how == "log2" || how == "log10") && range_numbers(range, 2)) {
     const double base = how == "log2" ? 2 : 10, a = range[0].get<double>(), b = range[1].get<double>();
@@ -79,7 +83,7 @@ std::vector<double> range_values(const ConfigJson& v) {
     const double factor = b < a ? 1 / base : base;
     // The last value belongs to the range when it is met up to rounding.
     const int count = static_cast<int>(std::floor(std::abs(std::log(b / a)) / std::log(base) + 1e-9)) + 1;
-    for (int i = 0; i < std::min(count, max_values); ++i) values.push_back(a * std::pow(factor, i));
+    for (int i = 0; i < std::min(count, most_axis_values); ++i) values.push_back(a * std::pow(factor, i));
   }
   return values;
 }
@@ -92,7 +96,7 @@ std::vector<AxisValue> axis_values(const ConfigTree& tree, const std::string& pa
   if (written.is_array()) {
     for (std::size_t i = 0; i < written.size(); ++i) values.push_back({written[i], "", child_path(path, i)});
   } else {
-    for (const double x : range_values(written)) values.push_back({ConfigJson(x), "", child_path(path, values.size())});
+    for (const double x : range_values(written)) values.push_back({number_of(x), "", child_path(path, values.size())});
   }
   if (values.empty()) {
     problems.add(

@@ -67,7 +67,11 @@ ConfigTree CaseTrees::of_reference(const Choice& choice, const std::string& name
   const std::string source = child_path("reference", name);
   const ConfigJson& patch = patch_of(document_, name);
   ConfigTree tree = of_case(choice, problems);
-  tree.merge(document_, source, patch);
+  try {
+    tree.merge(document_, source, patch);
+  } catch (const InputError& e) {
+    problems.add(e.what());
+  }
   // A reference runs every ray to its end unless it says otherwise.
   const bool says =
       patch.contains("sampling.termination") ||
@@ -81,7 +85,9 @@ ConfigTree CaseTrees::of_reference(const Choice& choice, const std::string& name
 void check_references(const ConfigTree& document, Problems& problems) {
   const ConfigJson* references = document.find("reference");
   if (references == nullptr) return;
-  const auto bad = [&](const std::string& path, const char* what) { problems.add(document.where(path) + ": " + what); };
+  const auto bad = [&](const std::string& path, const std::string& what) {
+    problems.add(document.where(path) + ": " + what);
+  };
   if (!references->is_object()) return bad("reference", "must be a section of name -> patch");
   for (const auto& [name, patch] : references->items()) {
     const std::string path = child_path("reference", name);
@@ -90,6 +96,9 @@ void check_references(const ConfigTree& document, Problems& problems) {
     if (!patch.is_object()) {
       bad(path, "must be a section: a patch on the case");
       continue;
+    }
+    for (const auto& [key, value] : patch.items()) {
+      if (const std::string wrong = wrong_path(key); !wrong.empty()) bad(child_path(path, key), wrong);
     }
     for (const char* key : {"name", "schema", "base_folder", "include", "axes", "reference", "metrics", "expect"}) {
       if (patch.contains(key)) bad(child_path(path, key), "a reference cannot change this key");

@@ -83,6 +83,15 @@ bool in_range(const Parameter& p, const json& v) {
   }
 }
 
+/// Numbers that are whole, alone or in lists, as integers.
+json whole_numbers(const json& value) {
+  if (value.is_number_float() && whole(value)) return static_cast<std::int64_t>(value.get<double>());
+  if (!value.is_array()) return value;
+  json list = json::array();
+  for (const json& x : value) list.push_back(whole_numbers(x));
+  return list;
+}
+
 }  // namespace
 
 std::string short_text(const json& value) {
@@ -143,6 +152,7 @@ std::string wrong_value(const Parameter& p, const json& value) {
 }
 
 json stored_value(const Parameter& p, const json& value) {
+  if (p.type == ParameterType::json) return whole_numbers(value);
   if (p.type == ParameterType::integer && value.is_number_float())
     return static_cast<std::int64_t>(value.get<double>());
   if (p.type == ParameterType::integer3) {

@@ -1,5 +1,7 @@
 #include "framework/config/config_tree.h"
 
+#include <algorithm>
+
 #include "framework/interfaces/error.h"
 
 namespace dvrlab {
@@ -7,12 +9,6 @@ namespace {
 
 bool is_index(const std::string& step) { return step.front() == '['; }
 std::size_t index_of(const std::string& step) { return std::stoul(step.substr(1)); }
-
-/// True if `path` is `prefix` or lies below it.
-bool below(const std::string& path, const std::string& prefix) {
-  if (path.compare(0, prefix.size(), prefix) != 0) return false;
-  return path.size() == prefix.size() || prefix.empty() || path[prefix.size()] == '.' || path[prefix.size()] == '[';
-}
 
 std::string parent_path(const std::string& path) {
   const std::size_t end = path.find_last_of(".[");
@@ -31,23 +27,34 @@ std::string text_of(const Place& place, const std::string& path) {
 
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> steps;
-  std::string step;
-  const auto finish = [&] {
-    if (!step.empty()) steps.push_back(step);
-    step.clear();
-  };
-  for (const char c : path) {
-    if (c == '.' || c == '[') finish();
-    if (c != '.') step += c;
-    if (c == ']') finish();
+  if (path.empty()) return steps;
+  std::size_t at = 0;
+  for (;;) {
+    const std::size_t end = std::min(path.find_first_of(".[", at + 1), path.size());
+    const std::string step = path[at] == '.' ? "" : path.substr(at, end - at);
+    if (step.empty()) throw InputError("'" + path + "' is no key path: a step is empty");
+    const bool number = step.size() > 2 && step.size() < 8 && step.back() == ']' &&
+                        step.find_first_not_of("0123456789", 1) == step.size() - 1;
+    if (is_index(step) && !number) throw InputError("'" + path + "' is no key path: '" + step + "' is no index");
+    steps.push_back(step);
+    if (end == path.size()) return steps;
+    at = path[end] == '.' ? end + 1 : end;
+    if (at == path.size()) throw InputError("'" + path + "' is no key path: a step is empty");
   }
-  finish();
-  for (const std::string& s : steps) {
-    const bool number =
-        s.size() > 2 && s.size() < 8 && s.back() == ']' && s.find_first_not_of("0123456789", 1) == s.size() - 1;
-    if (is_index(s) && !number) throw InputError("'" + path + "' is no key path: '" + s + "' is no index");
+}
+
+std::string wrong_path(const std::string& path) {
+  try {
+    const std::vector<std::string> steps = split_path(path);
+    return steps.empty() || is_index(steps.front()) ? "'" + path + "' is no key path" : "";
+  } catch (const InputError& e) {
+    return e.what();
   }
-  return steps;
+}
+
+bool lies_in(const std::string& path, const std::string& section) {
+  if (path.compare(0, section.size(), section) != 0) return false;
+  return path.size() == section.size() || section.empty() || path[section.size()] == '.' || path[section.size()] == '[';
 }
 
 std::string child_path(const std::string& path, const std::string& key) {
@@ -93,16 +100,23 @@ std::string ConfigTree::located(const std::string& message) const {
 void ConfigTree::erase_places(const std::string& path) {
   auto it = places_.lower_bound(path);
   while (it != places_.end() && it->first.compare(0, path.size(), path) == 0) {
-    it = below(it->first, path) ? places_.erase(it) : std::next(it);
+    it = lies_in(it->first, path) ? places_.erase(it) : std::next(it);
   }
 }
 
 void ConfigTree::graft(const std::string& path, const ConfigJson& value, const ConfigTree& from,
                        const std::string& from_path) {
   ConfigJson* node = &root;
+  const bool one_of_several = !from_path.empty() && from_path.back() == ']';
+  const Place* key_place = from.nearest(one_of_several ? parent_path(from_path) : from_path);
   const std::vector<std::string> steps = split_path(path);
+  std::string above;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::string& step = steps[i];
+    if (i > 0 && node->is_null() && key_place != nullptr) {  // a section that is made: written where the path is
+      places_[above] = {key_place->file, key_place->line, key_place->column, above};
+    }
+    above = is_index(step) ? above + step : child_path(above, step);
     if (is_index(step)) {
       if (!node->is_array() || index_of(step) >= node->size()) {
         throw InputError(from.where(from_path) + ": there is no '" + path + "' to set: the list has no element " +
@@ -124,14 +138,15 @@ void ConfigTree::graft(const std::string& path, const ConfigJson& value, const C
   *node = value;
   erase_places(path);
   key_places_.erase(path);
-  if (!from_path.empty() && from_path.back() == ']') {
-    if (const Place* key = from.nearest(parent_path(from_path))) key_places_[path] = *key;
+  if (one_of_several && key_place != nullptr) key_places_[path] = *key_place;
+  if (const Place* place = from.nearest(from_path)) {
+    places_[path] = {place->file, place->line, place->column, from_path};
+    // A list of numbers is one value: it is as good as its last number that was set.
+    if (!steps.empty() && is_index(steps.back()) && value.is_primitive()) places_[parent_path(path)] = places_[path];
   }
-  const Place* place = from.nearest(from_path);
-  if (place != nullptr) places_[path] = {place->file, place->line, place->column, from_path};
   for (auto it = from.places_.lower_bound(from_path); it != from.places_.end(); ++it) {
     if (it->first.compare(0, from_path.size(), from_path) != 0) break;
-    if (below(it->first, from_path)) places_[path + it->first.substr(from_path.size())] = it->second;
+    if (lies_in(it->first, from_path)) places_[path + it->first.substr(from_path.size())] = it->second;
   }
 }
 

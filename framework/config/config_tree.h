@@ -19,8 +19,13 @@ struct Place {
   std::string path;
 };
 
-/// "lights[0].color" -> {"lights", "[0]", "color"}.
+/// "lights[0].color" -> {"lights", "[0]", "color"}; "" -> {}. Throws InputError for an empty step ("sampling..step")
+/// and for an index that is none.
 std::vector<std::string> split_path(const std::string& path);
+/// "" or why this is no path of a key: what split_path refuses, no step, or an index in front.
+std::string wrong_path(const std::string& path);
+/// True if `path` is `section` or lies below it: who sets `section` decides `path`.
+bool lies_in(const std::string& path, const std::string& section);
 std::string child_path(const std::string& path, const std::string& key);
 std::string child_path(const std::string& path, std::size_t index);
 
@@ -39,9 +44,9 @@ class ConfigTree {
   /// A message that begins with a key's path ("camera.up: is ...") with that key's place in front. Others are kept.
   std::string located(const std::string& message) const;
 
-  /// Puts the value at `from_path` of `from` at `path`, with its places. Sections on the way are made. `value` is
-  /// usually what stands there; a range makes its own. Throws InputError when the path leads through a value that
-  /// is no section.
+  /// Puts the value at `from_path` of `from` at `path`, with its places. Sections on the way are made, and are written
+  /// there. `value` is usually what stands there; a range makes its own. Throws InputError when the path leads through
+  /// a value that is no section.
   void graft(const std::string& path, const ConfigJson& value, const ConfigTree& from, const std::string& from_path);
 
   /// Merges the section at `from_path` of `from` over this tree: a section that names its type, a list and a plain

@@ -7,6 +7,7 @@
 
 #include "framework/config/environment.h"
 #include "framework/config/json_reader.h"
+#include "framework/config/key_check.h"
 #include "framework/config/override.h"
 #include "framework/config/words.h"
 #include "framework/interfaces/error.h"
@@ -15,17 +16,29 @@ namespace dvrlab {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::uintmax_t most_bytes = 16 << 20;
+constexpr int most_includes = 1000;
+
 std::string read_text(const std::string& file, const std::string& where) {
   std::error_code ec;
+  const fs::file_status status = fs::status(file, ec);
+  // A pipe may wait for ever, a device may never end.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError(where + "cannot read the config '" + file + "': it is no regular file");
   std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file, ec))
-    throw InputError(where + "cannot read the config '" + file + "' (does it exist?)");
+  if (!in) throw InputError(where + "cannot read the config '" + file + "' (does it exist?)");
+  if (fs::file_size(file, ec) > most_bytes)
+    throw InputError(where + "cannot read the config '" + file + "': it is longer than 16 MiB");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+bool is_result(const ConfigJson& root) {
+  return root.contains("config") && root.contains("report") && root["config"].is_object();
 }
 
 /// A result file's `config` section is a config; its places stay those in the result file.
 ConfigTree config_of(ConfigTree tree) {
-  if (!tree.root.contains("config") || !tree.root.contains("report") || !tree.root["config"].is_object()) return tree;
+  if (!is_result(tree.root)) return tree;
   ConfigTree inner;
   inner.merge(tree, "config", tree.root["config"]);
   return inner;
@@ -39,14 +52,9 @@ class Loader {
     ConfigTree written = read_json(text, file, problems_);
     problems_.raise();
     if (!written.root.is_object()) throw InputError(file + ": a config is a section {...}, this is something else");
-    written = config_of(std::move(written));
-    for (const auto& [key, value] : written.root.items()) {
-      if (key.find_first_of(".[") != std::string::npos) {
-        problems_.add(written.where(key) +
-                      ": key paths are possible in axes, reference and --set only; write sections within sections");
-      }
-    }
+    check_keys(written, is_result(written.root) ? "config" : "", problems_);
     problems_.raise();
+    written = config_of(std::move(written));
     ConfigTree tree;
     for (const auto& [name, where] : included(written)) include(tree, name, folder, where);
     written.root.erase("include");
@@ -76,6 +84,9 @@ class Loader {
     if (std::find(open_.begin(), open_.end(), key) != open_.end()) {
       throw InputError(where + ": '" + name + "' includes itself: " + join_words(open_, " -> ") + " -> " + key);
     }
+    if (++included_ > most_includes)
+      throw InputError(where + ": more than " + std::to_string(most_includes) +
+                       " includes (a file that is included twice is read twice; include it once)");
     open_.push_back(key);
     const std::string text = read_text(path.string(), where + ": ");
     const ConfigTree fragment = read(text, path.string(), path.parent_path().string());
@@ -85,6 +96,7 @@ class Loader {
 
   Problems& problems_;
   std::vector<std::string> open_;  // the files that are being read, outermost first
+  int included_ = 0;               // of all files
 };
 
 }  // namespace
@@ -96,6 +108,8 @@ ConfigDocument parse_document(const std::string& text, const std::string& file, 
   document.file = file;
   document.tree = Loader(problems).read(text, file, base_folder);
   for (const std::string& assignment : set) override_key(document.tree, assignment);
+  check_keys(document.tree, "", problems);
+  problems.raise();
   const auto text_at = [&](const char* key) {
     const ConfigJson* value = document.tree.find(key);
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();

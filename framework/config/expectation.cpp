@@ -18,7 +18,11 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
   if (!mine.empty()) return e;
   e.metric = p.text("metric");
   e.against = p.text("against");
-  for (const auto& [key, value] : p.json("where").items()) e.where.emplace_back(key, value);
+  for (const auto& [key, value] : p.json("where").items()) {
+    const std::string wrong = wrong_path(key);
+    if (!wrong.empty()) problems.add(tree.where(child_path(path + ".where", key)) + ": " + wrong);
+    if (wrong.empty()) e.where.emplace_back(key, value);
+  }
   if (p.text("over") == "views") e.over = Expectation::Over::views;
   if (p.text("take") == "mean") e.take = Expectation::Take::mean;
   std::string bound;
@@ -42,6 +46,10 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
   if (!p.is_null("order")) {
     e.order_by = p.json("order")["by"].get<std::string>();
     e.increasing = p.json("order")["is"] == "increasing";
+    if (const std::string wrong = wrong_path(e.order_by); !wrong.empty()) {
+      problems.add(tree.where(path + ".order.by") + ": " + wrong);
+      return e;
+    }
     bound = std::string(e.increasing ? " increasing" : " decreasing") + " with " + e.order_by;
     ++bounds;
   }
@@ -70,6 +78,7 @@ std::vector<Expectation> read_expectations(const ConfigTree& tree, Problems& pro
       expectations.push_back(read_one(tree, path, problems));
     } else {
       problems.add(tree.where(path) + ": found " + short_text((*list)[i]) + "; must be a section {...}");
+      expectations.emplace_back();
     }
   }
   return expectations;

@@ -24,7 +24,7 @@ struct Expectation {
   std::string text;  // "psnr against truth >= 40": for messages and result files
 };
 
-/// Everything wrong is added to `problems`.
+/// Everything wrong is added to `problems`; an expectation that cannot be read has no text.
 std::vector<Expectation> read_expectations(const ConfigTree& tree, Problems& problems);
 
 /// True if the case with this resolved config is meant.

@@ -19,7 +19,7 @@ constexpr std::size_t max_cases = 100000;
 constexpr std::size_t max_id = 160;  // letters; file systems allow 255 bytes
 
 bool decides(const std::vector<std::string>& paths, const std::string& key) {
-  return std::any_of(paths.begin(), paths.end(), [&](const std::string& p) { return decided_by(key, p); });
+  return std::any_of(paths.begin(), paths.end(), [&](const std::string& p) { return lies_in(key, p); });
 }
 
 class Planner {
@@ -29,17 +29,51 @@ class Planner {
 
   Experiment plan() {
     experiment_.name = document_.name;
-    axes_ = read_axes(document_.tree, problems_);
-    check_references(document_.tree, problems_);
-    experiment_.expectations = read_expectations(document_.tree, problems_);
-    problems_.raise();
+    std::vector<std::string> unread;
+    axes_ = read_axes(document_.tree, unread, problems_);
+    const bool axes_read = problems_.empty();
+    Problems of_references, of_expectations;
+    check_references(document_.tree, of_references);
+    references_read_ = of_references.empty();
+    experiment_.expectations = read_expectations(document_.tree, of_expectations);
     if (may_orbit(trees_.base(), axes_)) outer_ = order_around_views(axes_);
-    plan_cases();
+    if (axes_read) {
+      plan_all();
+    } else {
+      check_first_case(unread);
+    }
+    problems_.add(of_references);
+    const bool sound = problems_.empty();
+    check_expectations(experiment_, document_.tree, sound, of_expectations);
+    problems_.add(of_expectations);
     problems_.raise();
     return std::move(experiment_);
   }
 
  private:
+  void plan_all() {
+    try {
+      plan_cases();
+    } catch (const InputError& e) {
+      problems_.add(e.what());
+      check_first_case({});
+    }
+  }
+
+  /// The first value of every axis, where the cases cannot be planned: the rest of the config may be wrong too.
+  void check_first_case(const std::vector<std::string>& unread) {
+    Choice choice{std::vector<std::size_t>(axes_.size(), 0), {}};
+    if (asked_views(trees_.of_case(choice, problems_)) > 0) choice.view = 0;
+    const ConfigTree tree = trees_.of_case(choice, problems_);
+    const bool complete = std::all_of(unread.begin(), unread.end(), [&](const std::string& key) {
+      return wrong_path(key).empty() && tree.find(key) != nullptr;
+    });
+    if (!complete) return;  // who knows what that axis would have brought
+    PlannedCase c;
+    resolve(tree, document_.name, c);
+    experiment_.cases.push_back(std::move(c));
+  }
+
   void plan_cases() {
     std::size_t outer = 1, inner = 1, variants = 1;
     for (std::size_t a = 0; a < axes_.size(); ++a) {
@@ -140,7 +174,7 @@ class Planner {
   std::vector<std::pair<std::string, std::size_t>> plan_references(const Choice& choice) {
     std::vector<std::pair<std::string, std::size_t>> found;
     const ConfigJson* references = document_.tree.find("reference");
-    if (references == nullptr) return found;
+    if (references == nullptr || !references_read_) return found;
     for (const auto& [name, patch] : references->items()) {
       const std::vector<std::string> decided = trees_.decided_by_reference(name);
       PlannedCase c;
@@ -182,6 +216,7 @@ class Planner {
   const ConfigDocument& document_;
   const Registry& registry_;
   std::vector<Axis> axes_;
+  bool references_read_ = true;
   std::size_t outer_ = 0;  // the first axes, which run outside the views of an orbit
   std::size_t views_ = 0;  // of the orbit that is being planned
   CaseTrees trees_;
@@ -194,11 +229,7 @@ class Planner {
 }  // namespace
 
 Experiment plan_experiment(const ConfigDocument& document, const Registry& registry) {
-  Experiment experiment = Planner(document, registry).plan();
-  Problems problems;
-  check_expectations(experiment, document.tree, problems);
-  problems.raise();
-  return experiment;
+  return Planner(document, registry).plan();
 }
 
 }  // namespace dvrlab

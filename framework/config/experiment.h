@@ -41,6 +41,7 @@ struct Experiment {
 Experiment plan_experiment(const ConfigDocument& document, const Registry& registry);
 
 /// Part of plan_experiment: an expectation that no case can meet or miss is a mistake, for it would silently pass.
-void check_expectations(const Experiment& experiment, const ConfigTree& tree, Problems& problems);
+/// `sound`: nothing is wrong with the cases; else only names are judged, as far as they are known.
+void check_expectations(const Experiment& experiment, const ConfigTree& tree, bool sound, Problems& problems);
 
 }  // namespace dvrlab

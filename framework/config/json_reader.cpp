@@ -72,9 +72,11 @@ class TreeBuilder : public nlohmann::json_sax<ConfigJson> {
     const std::size_t read = std::min(position, static_cast<std::size_t>(end_ - begin_));
     token_ = begin_ + (read == 0 ? 0 : read - 1);
     const std::string what = e.what();
-    const std::size_t reason = what.find(": ");
+    std::size_t reason = what.find(": ");
+    if (reason == std::string::npos)
+      reason = what.find("] ");  // "[json.exception.out_of_range.406] number overflow ..."
     problems_.add(text_of(place_of(token_)) + "not valid JSON" +
-                  (reason == std::string::npos ? "" : what.substr(reason)) +
+                  (reason == std::string::npos ? "" : ": " + what.substr(reason + 2)) +
                   (last.empty() ? "" : " (read so far: '" + last.substr(0, 40) + "')"));
     return false;
   }

@@ -2,6 +2,7 @@
 
 #include "framework/config/axes.h"
 #include "framework/config/check_value.h"
+#include "framework/config/json_reader.h"
 #include "framework/interfaces/error.h"
 
 namespace dvrlab {
@@ -54,6 +55,14 @@ void override_axis(ConfigTree& tree, const std::string& role, const std::string&
   tree.set_place(path, {"--set", 0, 0, path});
 }
 
+/// Read as a config is: nothing in it may be written twice.
+ConfigJson value_of(const std::string& text, const std::string& place) {
+  Problems problems;
+  const ConfigTree tree = read_json(text, place, problems);
+  problems.raise();
+  return tree.root;
+}
+
 }  // namespace
 
 void override_key(ConfigTree& tree, const std::string& assignment) {
@@ -61,16 +70,17 @@ void override_key(ConfigTree& tree, const std::string& assignment) {
   const std::string place = "--set " + assignment;
   if (equal == std::string::npos || equal == 0) throw InputError(place + ": must be key.path=value");
   const std::string key = assignment.substr(0, equal), text = assignment.substr(equal + 1);
+  if (const std::string wrong = wrong_path(key); !wrong.empty()) throw InputError(place + ": " + wrong);
+  if (lies_in(key, "include")) throw InputError(place + ": include is read from files only; name it in the config");
   ConfigTree given;
-  given.root = ConfigJson::parse(text, nullptr, false);
-  if (given.root.is_discarded()) given.root = text;
+  given.root = ConfigJson::accept(text) ? value_of(text, "--set " + key) : ConfigJson(text);
   given.set_place("", {"--set", 0, 0, key});
   for (const std::string role : {"permutation", "variant"}) {
     const std::string axes = "axes." + role + ".";
     if (key.compare(0, axes.size(), axes) == 0)
       return override_axis(tree, role, key.substr(axes.size()), given.root, place);
     for (const WrittenAxis& axis : written_axes(tree, role)) {
-      if (decided_by(key, axis.key))
+      if (lies_in(key, axis.key))
         throw InputError(place + ": the axis " + axis.place + " decides this key; set that, to one value in a list");
     }
   }

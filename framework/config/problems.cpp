@@ -8,6 +8,8 @@
 namespace dvrlab {
 
 void Problems::add(std::string line) {
+  // A key or a text of the config may hold anything; a message is one line all the same.
+  for (std::size_t at; (at = line.find('\n')) != std::string::npos;) line.replace(at, 1, "\\n");
   if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(std::move(line));
 }
 

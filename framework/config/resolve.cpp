@@ -95,9 +95,9 @@ class CaseResolver {
     each("metrics", c.config["metrics"], [&](const std::string& path, nlohmann::json& out) {
       c.metrics.push_back(plugin_section(path, "metric", "", false, out));
     });
-    if (c.lights.size() > 4)
-      problems_.add(tree_.where("lights") + ": found " + std::to_string(c.lights.size()) +
-                    " lights; at most 4 are possible");
+    if (c.lights.size() > most_lights)
+      problems_.add(tree_.where("lights") + ": found " + std::to_string(c.lights.size()) + " lights; at most " +
+                    std::to_string(most_lights) + " are possible");
     return c;
   }
 

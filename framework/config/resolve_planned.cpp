@@ -24,12 +24,17 @@ void refuse_open_views(const ConfigTree& tree, const PlannedCase& c, Problems& p
 }
 
 /// Data that is missing is found before the first case runs, unless it may be missing.
-void check_data_file(const ResolvedCase& c) {
-  const nlohmann::json& data = c.config["data"];
-  if (data["optional"] == true || !data.contains("file") || !data["file"].is_string()) return;
+void check_data_file(const ConfigTree& tree, const ResolvedCase& c, Problems& problems) {
+  const nlohmann::json& data = c.config.at("data");
+  if (!data.is_object()) return;
+  if (data.value("optional", nlohmann::json()) == true || !data.contains("file") || !data["file"].is_string()) return;
   LoadContext context;
   context.base_folder = c.base_folder;
-  resolve_path(data["file"].get<std::string>(), context, "data.file");
+  try {
+    resolve_path(data["file"].get<std::string>(), context, "data.file");
+  } catch (const InputError& e) {
+    problems.add(tree.located(e.what()));
+  }
 }
 
 void check(const ConfigTree& tree, const ResolvedCase& c, const Registry& registry, Problems& problems) {
@@ -38,13 +43,9 @@ void check(const ConfigTree& tree, const ResolvedCase& c, const Registry& regist
     if (!metrics.insert(m.type).second)
       problems.add(tree.where("metrics") + ": metric '" + m.type + "' is listed twice (keep one)");
   }
-  try {
-    check_data_file(c);
-    check_case(c, registry);
-  } catch (const InputError& e) {
-    problems.add(tree.located(e.what()));
-  } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of its cases when they run
-  }
+  Problems found;
+  check_case(c, registry, found);
+  for (const std::string& line : found.lines()) problems.add(tree.located(line));
 }
 
 }  // namespace
@@ -54,7 +55,9 @@ void resolve_planned(const ConfigTree& tree, const std::string& base_folder, con
   Problems mine;
   refuse_open_views(tree, c, mine);
   c.resolved = resolve_case(tree, base_folder, registry, mine);
-  if (mine.empty()) check(tree, c.resolved, registry, mine);
+  const bool resolved = mine.empty();
+  check_data_file(tree, c.resolved, mine);
+  if (resolved) check(tree, c.resolved, registry, mine);
   problems.add(mine);
 }
 

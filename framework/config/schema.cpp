@@ -85,7 +85,10 @@ class SchemaWriter {
   /// The value of a section's key: a section, or a list of them.
   static Schema whole(const SectionSource& source, const std::string& prefix) {
     const Schema one = refer(prefix + source.key);
-    return source.list ? Schema{{"type", "array"}, {"items", one}} : one;
+    if (!source.list) return one;
+    Schema list = {{"type", "array"}, {"items", one}};
+    if (source.key == std::string("lights")) list["maxItems"] = most_lights;
+    return list;
   }
 
   void define(const SectionSource& source) {

@@ -1,4 +1,5 @@
 // The sections of an experiment as JSON Schema: key paths -> values.
+#include "framework/config/axes.h"
 #include "framework/config/schema_parts.h"
 #include "framework/config/sections.h"
 #include "framework/config/words.h"
@@ -23,7 +24,10 @@ void define_range(Schema& definitions) {
                            {{"lin",
                              {{"description", "[first, last, count]: equal distances."},
                               {"type", "array"},
-                              {"items", {{"type", "number"}}},
+                              {"items",
+                               {{{"type", "number"}},
+                                {{"type", "number"}},
+                                {{"type", "integer"}, {"minimum", 2}, {"maximum", most_axis_values}}}},
                               {"minItems", 3},
                               {"maxItems", 3}}},
                             {"log2", factor},
@@ -66,7 +70,9 @@ void add_experiment(const KeyPaths& paths, Schema& properties, Schema& definitio
   definitions["axes"]["properties"]["zip"] = {
       {"description", "Keys that vary together: a list of sections of key path -> values of one length."},
       {"type", "array"},
+      {"minItems", 1},
       {"items", section(axes, axis_of(Schema::object()))}};
+  definitions["axes"]["properties"]["zip"]["items"]["minProperties"] = 1;
   definitions["values"] = section(values, Schema::object());
   properties["axes"] = {
       {"description", "Keys that the experiment varies: key path -> values. The cases are the full product."},

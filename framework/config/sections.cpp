@@ -1,6 +1,7 @@
 #include "framework/config/sections.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "framework/config/check_value.h"
 #include "framework/interfaces/error.h"
@@ -29,9 +30,11 @@ bool ray_interval(const Value& v) {
   return v[1].is_null() || (v[1].is_number() && v[1].get<double>() > v[0].get<double>());
 }
 
+bool whole(const Value& v) { return v.is_number() && v.get<double>() == std::floor(v.get<double>()); }
+
 bool image_size(const Value& v) {
   return v.is_array() && v.size() == 2 && std::all_of(v.begin(), v.end(), [](const Value& x) {
-           return x.is_number_integer() && x.get<double>() >= 1 && x.get<double>() <= 16384;
+           return whole(x) && x.get<double>() >= 1 && x.get<double>() <= 16384;
          });
 }
 
@@ -42,7 +45,7 @@ bool order(const Value& v) {
 }
 
 bool tf_domain_range(const Value& v) { return v == "data" || v == "type" || (null_or_range(v) && !v.is_null()); }
-bool view(const Value& v) { return v.is_null() || (v.is_number_integer() && v.get<double>() >= 0); }
+bool view(const Value& v) { return v.is_null() || (whole(v) && v.get<double>() >= 0 && v.get<double>() < 1e9); }
 
 void check_orbit(const ParameterSet& p) {
   if (p.is_null("view") || p.json("view").get<long long>() < p.integer("views")) return;

@@ -26,6 +26,9 @@ struct SectionType {
   void (*check)(const ParameterSet& keys) = nullptr;
 };
 
+/// Lights that are shaded at once.
+inline constexpr std::size_t most_lights = 4;
+
 /// All of them. `data` and `optical_model` are the keys that every plugin of that kind shares.
 const std::vector<SectionType>& section_types();
 

@@ -27,8 +27,7 @@ bool makes_orbit(const AxisKey& key) {
 int place_of(const Axis& axis) {
   if (axis.variant) return 3;
   const auto decides = [&](const char* section) {
-    return std::any_of(axis.keys.begin(), axis.keys.end(),
-                       [&](const AxisKey& k) { return decided_by(k.key, section); });
+    return std::any_of(axis.keys.begin(), axis.keys.end(), [&](const AxisKey& k) { return lies_in(k.key, section); });
   };
   return decides("data") ? 0 : decides("camera") ? 1 : 2;
 }
@@ -46,7 +45,7 @@ std::size_t asked_views(const ConfigTree& tree) {
 }
 
 bool decides_views(const std::string& key) {
-  return decided_by(view_key, key) || key == "camera.type" || key == "camera.views";
+  return lies_in(view_key, key) || key == "camera.type" || key == "camera.views";
 }
 
 bool may_orbit(const ConfigTree& tree, const std::vector<Axis>& axes) {

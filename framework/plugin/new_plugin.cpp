@@ -114,11 +114,11 @@ NewPlugin new_plugin(const std::string& kind, const std::string& name, const std
     if (made.in_source_tree)
       folder = tree / (kind == "backend" ? fs::path("backends") : fs::path("plugins") / kind) / name;
   }
-  if (fs::exists(fs::symlink_status(folder)))
+  std::error_code ec;
+  if (fs::exists(fs::symlink_status(folder, ec)))
     throw InputError("new-plugin: " + folder.string() +
                      " exists, and nothing is overwritten; choose another name or --out");
   const Replacements replacements = {{"my_" + kind, name}, {"My" + class_name(kind), class_name(name)}};
-  std::error_code ec;
   fs::create_directories(folder, ec);
   if (ec) throw InputError("new-plugin: the folder " + folder.string() + " cannot be made: " + ec.message());
   made.folder = folder.string();

@@ -51,10 +51,17 @@ void mark_duplicates(std::vector<PluginEntryInfo>& entries) {
 
 }  // namespace
 
-Registry::Registry(const std::vector<std::string>& extra) {
+Registry::Registry(const std::vector<std::string>& extra, MissingRoots missing) {
   for (const std::string& folder : extra) add_root(roots_, folder, "--plugin-path");
   if (const char* path = std::getenv("DVRLAB_PLUGIN_PATH")) {
-    for (const std::string& folder : split_words(path, ':')) add_root(roots_, folder, "DVRLAB_PLUGIN_PATH");
+    for (const std::string& folder : split_words(path, ':')) {
+      try {
+        add_root(roots_, folder, "DVRLAB_PLUGIN_PATH");
+      } catch (const InputError& e) {
+        if (missing == MissingRoots::refused) throw;
+        missing_roots_.emplace_back(e.what());
+      }
+    }
   }
   const std::string own = home() + "/plugins";
   if (fs::is_directory(own)) add_root(roots_, own, "dvrlab");

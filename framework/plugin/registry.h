@@ -17,13 +17,18 @@ struct PluginEntryInfo {
   std::string problem;  // one sentence when it cannot be used; descriptor is nullptr then
 };
 
+/// A folder of DVRLAB_PLUGIN_PATH that is not there: an InputError, or a finding for who looks at the set-up itself.
+enum class MissingRoots { refused, found };
+
 class Registry {
  public:
   /// Search path: `extra` (--plugin-path), DVRLAB_PLUGIN_PATH (colon separated), then the tree of this library
-  /// (build tree or install prefix).
-  explicit Registry(const std::vector<std::string>& extra = {});
+  /// (build tree or install prefix). Throws InputError for a folder of `extra` that is not there.
+  explicit Registry(const std::vector<std::string>& extra = {}, MissingRoots missing = MissingRoots::refused);
 
   const std::vector<std::string>& roots() const { return roots_; }
+  /// MissingRoots::found: one sentence for each.
+  const std::vector<std::string>& missing_roots() const { return missing_roots_; }
   const std::vector<PluginEntryInfo>& entries() const { return entries_; }
 
   /// Throws InputError: not found (kind, folders, nearest name, what is there), not loadable, ABI differs, duplicate.
@@ -44,7 +49,7 @@ class Registry {
  private:
   Plugin& object(const PluginEntryInfo& entry) const;
   void scan(const std::string& root);
-  std::vector<std::string> roots_;
+  std::vector<std::string> roots_, missing_roots_;
   std::vector<PluginEntryInfo> entries_;
   mutable std::vector<std::pair<const PluginDescriptor*, std::unique_ptr<Plugin>>> objects_;
 };

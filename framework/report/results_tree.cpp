@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "framework/config/axes.h"
@@ -14,15 +13,6 @@
 namespace dvrlab {
 namespace fs = std::filesystem;
 namespace {
-
-void write_text(const std::string& file, const std::string& text) {
-  write_atomically(file, [&](const std::string& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) throw std::runtime_error("cannot write '" + file + "' (disk full, or no permission?)");
-  });
-}
 
 void make_folder(const std::string& folder) {
   std::error_code ec;
@@ -103,9 +93,12 @@ void ResultsTree::write_images(const CaseRecord& r, const FrameImage& image) con
 
 void ResultsTree::write_case(const CaseRecord& r) const {
   make_folder(case_folder(r.plan->id));
+  std::error_code none;
+  for (const char* image : {"/image.exr", "/image.png"})
+    if (!r.ran) fs::remove(case_folder(r.plan->id) + image, none);  // of an earlier run
   nlohmann::ordered_json record = case_json(r);
   record["config"]["base_folder"] = movable(r.plan->resolved.base_folder, case_folder(r.plan->id));
-  write_text(case_folder(r.plan->id) + "/case.json", pretty_json(record) + "\n");
+  write_text_atomically(case_folder(r.plan->id) + "/case.json", pretty_json(record) + "\n");
 }
 
 void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
@@ -132,7 +125,7 @@ void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
       for (const auto& [name, value] : m.values) table.set(name + " against " + m.against, text_of(value));
     }
   }
-  write_text(folder_ + "/results.csv", table.csv());
+  write_text_atomically(folder_ + "/results.csv", table.csv());
 }
 
 void ResultsTree::write_views(const std::vector<CaseRecord>& records) const {
@@ -153,7 +146,7 @@ void ResultsTree::write_views(const std::vector<CaseRecord>& records) const {
   if (table.empty()) {
     fs::remove(folder_ + "/views.csv", none);  // of an earlier run
   } else {
-    write_text(folder_ + "/views.csv", table.csv());
+    write_text_atomically(folder_ + "/views.csv", table.csv());
   }
 }
 

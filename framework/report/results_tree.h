@@ -19,7 +19,7 @@ class ResultsTree {
 
   void write_images(const CaseRecord& record, const FrameImage& image) const;
   /// The config's base_folder becomes relative to the case's folder where both lie in one folder other than "/": that
-  /// folder can be moved, and its cases still run again.
+  /// folder can be moved, and its cases still run again. A case that has no image loses those of an earlier run.
   void write_case(const CaseRecord& record) const;
   /// One row per case; columns: id, role, axes, backend, verdict, counters, times, metrics.
   void write_table(const std::vector<CaseRecord>& records) const;

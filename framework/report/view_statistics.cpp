@@ -24,7 +24,7 @@ std::vector<std::size_t> axes_of(const PlannedCase& c, const std::string& key) {
   std::vector<std::size_t> axes;
   for (const AxisChoice& choice : c.choices) {
     if (choice.key == key) return {choice.axis};
-    if (decided_by(key, choice.key)) axes.push_back(choice.axis);
+    if (lies_in(key, choice.key)) axes.push_back(choice.axis);
   }
   return axes;
 }

@@ -85,12 +85,10 @@ Range scan(const GridField& grid) {
 // The rare path: some voxel is NaN or Inf. The voxels may be shared with a file, so a copy is repaired.
 void repair(GridField& grid, const std::string& nan_policy, double nan_value) {
   const auto* v = static_cast<const float*>(grid.voxels.get());
-  const std::uint64_t nx = static_cast<std::uint64_t>(grid.dims[0]), ny = static_cast<std::uint64_t>(grid.dims[1]);
   const auto bad = [](float x) { return !std::isfinite(x); };
   if (nan_policy == "error") {
     const auto i = static_cast<std::uint64_t>(std::find_if(v, v + grid.count(), bad) - v);
-    throw InputError(grid.source + ": voxel (" + std::to_string(i % nx) + ", " + std::to_string(i / nx % ny) + ", " +
-                     std::to_string(i / nx / ny) + ") is " + (std::isnan(v[i]) ? "NaN" : "infinite") +
+    throw InputError(grid.source + ": " + voxel_text(grid.dims, i) + " is " + (std::isnan(v[i]) ? "NaN" : "infinite") +
                      "; clean the data or set data.nan_policy to \"replace\"");
   }
   const auto memory = allocate_voxels(grid.bytes(), grid.source);

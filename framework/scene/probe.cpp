@@ -11,9 +11,6 @@ std::vector<ProbeSegment> BackendSession::probe(const FrameJob&, int, int) {
 }
 
 std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y) {
-  if (x < 0 || y < 0 || x >= scene.job.width || y >= scene.job.height)
-    throw InputError("--pixel: " + std::to_string(x) + "," + std::to_string(y) + " is outside the image of " +
-                     std::to_string(scene.job.width) + " x " + std::to_string(scene.job.height) + " pixels");
   const PluginEntryInfo& cpu = registry.find("backend", "cpu");
   nlohmann::json values = nlohmann::json::object();
   std::vector<Parameter> declared(cpu.descriptor->parameters,

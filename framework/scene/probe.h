@@ -9,7 +9,7 @@
 
 namespace dvrlab {
 
-/// All composited segments of the ray of pixel (x, y), on the cpu backend. Throws InputError for a pixel outside.
+/// All composited segments of the ray of pixel (x, y), on the cpu backend. The pixel lies in the image.
 std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y);
 
 }  // namespace dvrlab

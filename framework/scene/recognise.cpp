@@ -20,6 +20,7 @@ std::vector<std::byte> start_of(const std::string& path) {
   std::error_code ec;
   if (!fs::exists(path, ec)) throw InputError("there is no file or folder '" + path + "'");
   if (fs::is_directory(path, ec)) return {};
+  if (!fs::is_regular_file(path, ec)) throw InputError(path + ": is no regular file");  // a pipe may wait for ever
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path + ": cannot be read (are you allowed to?)");
   std::array<char, start_bytes> start;

@@ -26,6 +26,8 @@ LoadContext load_context(const ResolvedCase& c) {
   return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
 }
 
+std::string field_key(const ResolvedCase& c) { return c.config.at("data").dump() + "|" + c.base_folder; }
+
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
   const std::string wanted = c.data.parameters.text("sampler");
@@ -153,39 +155,62 @@ void add_skipping(bool wanted, const Field& field, const Medium& medium, const M
 }  // namespace
 
 std::shared_ptr<const Field> FieldCache::load(const ResolvedCase& c, const Registry& registry) {
-  const std::string key = c.config.at("data").dump() + "|" + c.base_folder;
+  const std::string key = field_key(c);
   for (const auto& [known, field] : entries_)
     if (known == key) return field;
   auto field = registry.get<DataPlugin>("data", c.data.type, "data.type").load(c.data.parameters, load_context(c));
-  entries_.clear();  // one field at a time: the axes run data outermost, and memory is what limits
-  entries_.emplace_back(key, field);
+  keep(c, field);
   return field;
 }
 
-void check_case(const ResolvedCase& c, const Registry& registry) {
-  std::vector<std::string> notes;
-  const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
-  refuse_impossible(c, medium,
-                    registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
-                        .declaration(c.estimator.parameters));
-  if (c.lights.size() > 4)
-    throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
-  if (c.top.text("precision") == "fast" &&
-      !registry.get<BackendPlugin>("backend", c.backend.type, "backend.type").supports_fast())
-    throw InputError("precision: backend \"" + c.backend.type + "\" has no \"fast\" arithmetic; use \"strict\"");
+void FieldCache::keep(const ResolvedCase& c, std::shared_ptr<const Field> field) {
+  entries_.clear();  // one field at a time: the axes run data outermost, and memory is what limits
+  entries_.emplace_back(field_key(c), std::move(field));
+}
+
+void check_case(const ResolvedCase& c, const Registry& registry, Problems& problems) {
+  const auto part = [&](auto check) {
+    try {
+      check();
+    } catch (const InputError& e) {
+      problems.add(e.what());
+    } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of the case when it runs
+    }
+  };
+  part([&] {
+    std::vector<std::string> notes;
+    const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
+    refuse_impossible(c, medium,
+                      registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
+                          .declaration(c.estimator.parameters));
+  });
+  part([&] {
+    if (c.top.text("precision") == "fast" &&
+        !registry.get<BackendPlugin>("backend", c.backend.type, "backend.type").supports_fast())
+      throw InputError("precision: backend \"" + c.backend.type + "\" has no \"fast\" arithmetic; use \"strict\"");
+  });
   if (c.illumination.size() > 1)
-    throw InputError("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
-                     "); give one");
-  for (const Section& s : c.illumination) registry.get<IlluminationPlugin>("illumination", s.type, "illumination.type");
-  const std::string sampler = c.data.parameters.text("sampler");
-  if (!sampler.empty()) registry.get<SamplerPlugin>("sampler", sampler, "data.sampler");
+    problems.add("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
+                 "); give one");
+  part([&] {
+    const std::string sampler = c.data.parameters.text("sampler");
+    if (!sampler.empty()) registry.get<SamplerPlugin>("sampler", sampler, "data.sampler");
+  });
   // Cameras, planes and lights that point nowhere do so in every box.
   FormulaField box;
   box.lo = {-1, -1, -1};
   KernelUnit unused;
-  add_camera(c.camera, box, 2, 2, unused);
-  add_clipping(c.clip, box, unused);
-  local_shading(c, registry, box, false);
+  part([&] { add_camera(c.camera, box, 2, 2, unused); });
+  for (const Section& plane : c.clip) part([&] { add_clipping({plane}, box, unused); });
+  ResolvedCase alone;  // a light, then the passes
+  alone.camera = c.camera;
+  for (const Section& light : c.lights) {
+    alone.lights = {light};
+    part([&] { local_shading(alone, registry, box, false); });
+  }
+  alone.lights.clear();
+  alone.illumination = c.illumination;
+  part([&] { local_shading(alone, registry, box, false); });
 }
 
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/config/problems.h"
 #include "framework/config/resolved_case.h"
 #include "framework/interfaces/backend.h"
 #include "framework/interfaces/field.h"
@@ -27,14 +28,16 @@ struct Scene {
 class FieldCache {
  public:
   std::shared_ptr<const Field> load(const ResolvedCase& c, const Registry& registry);
+  /// What load() would load for this case, for who has it already.
+  void keep(const ResolvedCase& c, std::shared_ptr<const Field> field);
 
  private:
   std::vector<std::pair<std::string, std::shared_ptr<const Field>>> entries_;
 };
 
 /// Everything that can be refused without reading the data: an estimator that cannot integrate a term of the
-/// model, more than four lights, ... Throws InputError naming the key.
-void check_case(const ResolvedCase& c, const Registry& registry);
+/// model, a direction that is 0, ... Each reason is added to `problems` and begins with its key.
+void check_case(const ResolvedCase& c, const Registry& registry, Problems& problems);
 
 /// States what build_scene will allocate beside the field: the parts of the framework, sampler, estimator and passes.
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory);

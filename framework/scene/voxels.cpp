@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "framework/interfaces/error.h"
+#include "framework/report/number_text.h"
 #include "framework/scene/parallel.h"
 
 namespace dvrlab {
@@ -27,7 +28,8 @@ T load(const std::byte* p, bool swap) {
 // Writes every voxel as Dst and returns the largest |source - kept|. The difference is exact: double holds all numbers
 // but the 64-bit integers, and long double those.
 template <class Src, class Dst>
-double convert(const std::byte* in, bool swap, Dst* out, std::uint64_t count, const std::string& where) {
+double convert(const std::byte* in, bool swap, Dst* out, const std::array<int, 3>& dims, const std::string& where) {
+  const std::uint64_t count = std::uint64_t(dims[0]) * std::uint64_t(dims[1]) * std::uint64_t(dims[2]);
   using Exact = std::conditional_t<std::is_integral_v<Src> && sizeof(Src) == 8, long double, double>;
   Exact worst = 0;
   std::mutex guard;
@@ -40,7 +42,7 @@ double convert(const std::byte* in, bool swap, Dst* out, std::uint64_t count, co
         const Exact exact = static_cast<Exact>(x);
         if (!std::isfinite(exact)) continue;
         if (!std::isfinite(static_cast<float>(out[i])))
-          throw InputError(where + ": voxel " + std::to_string(i) + " is " + std::to_string(static_cast<double>(x)) +
+          throw InputError(where + ": " + voxel_text(dims, i) + " is " + number_text(static_cast<double>(x)) +
                            ", beyond what float32 holds; rescale the data");
         mine = std::max(mine, std::fabs(exact - static_cast<Exact>(out[i])));
       }
@@ -55,7 +57,7 @@ template <class Src, class Dst>
 double copy(GridField& grid, const SourceVoxels& source, const std::string& where) {
   const auto memory = allocate_voxels(grid.count() * sizeof(Dst), where);
   const double worst = convert<Src, Dst>(static_cast<const std::byte*>(source.data.get()), source.swap,
-                                         static_cast<Dst*>(memory.get()), grid.count(), where);
+                                         static_cast<Dst*>(memory.get()), grid.dims, where);
   grid.voxels = memory;
   return worst;
 }
@@ -73,6 +75,12 @@ bool is_kept(SourceType type) {
 }
 
 }  // namespace
+
+std::string voxel_text(const std::array<int, 3>& dims, std::uint64_t index) {
+  const std::uint64_t nx = std::uint64_t(dims[0]), ny = std::uint64_t(dims[1]);
+  return "voxel (" + std::to_string(index % nx) + ", " + std::to_string(index / nx % ny) + ", " +
+         std::to_string(index / nx / ny) + ")";
+}
 
 std::size_t bytes_of(SourceType type) {
   static constexpr std::size_t bytes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};

@@ -17,6 +17,9 @@ std::size_t bytes_of(SourceType type);
 /// "int8", "float64".
 const char* name_of(SourceType type);
 
+/// "voxel (x, y, z)": the place of the voxel with this index, x fastest.
+std::string voxel_text(const std::array<int, 3>& dims, std::uint64_t index);
+
 /// Calls f(T{}) with the C++ type of `type`.
 template <class F>
 auto with_source_type(SourceType type, F f) {

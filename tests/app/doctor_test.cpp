@@ -100,6 +100,28 @@ TEST_F(Doctor, BrokenPluginsAreNamed) {
   expect_words(report["broken_plugins"][0]["reason"], {"is not loadable"});
 }
 
+TEST_F(Doctor, AMissingFolderOfTheSearchPathIsAFinding) {
+  const std::string lost = "DVRLAB_PLUGIN_PATH=/nope:configs:/nor/this ";
+  const nlohmann::json report = json_of(lost + "dvrlab doctor --json");
+  ASSERT_EQ(report["missing_plugin_folders"].size(), 2u);
+  expect_words(run(lost + "dvrlab doctor").out, {"missing:", "DVRLAB_PLUGIN_PATH: there is no folder '/nope'"});
+  const Outcome list = run(lost + "dvrlab list");
+  EXPECT_EQ(list.code, 0);
+  expect_words(list.err, {"DVRLAB_PLUGIN_PATH: there is no folder '/nope'", "'/nor/this'"});
+  expect_one_error(run(lost + "dvrlab describe image"), 2, {"DVRLAB_PLUGIN_PATH: there is no folder '/nope'"});
+  EXPECT_TRUE(json_of("dvrlab doctor --json")["missing_plugin_folders"].empty());
+}
+
+TEST_F(Doctor, ADuplicateIsListedOnce) {
+  std::filesystem::create_directories(path("more/metric/psnr"));
+  std::filesystem::copy_file(DVRLAB_PLUGIN_OUTPUT "/metric/psnr/psnr.so", path("more/metric/psnr/psnr.so"));
+  std::size_t rows = 0;
+  for (const nlohmann::json& row : json_of("dvrlab list metric --json --plugin-path more"))
+    if (row["name"] == "psnr") ++rows;
+  EXPECT_EQ(rows, 1u);
+  expect_words(run("dvrlab list metric --plugin-path more").out, {"is there twice"});
+}
+
 TEST_F(Doctor, PluginsThatWereNotBuiltAreThoseOfTheBuild) {
   std::ifstream in(DVRLAB_BUILD "/lib/dvrlab/plugins_not_built.txt");
   ASSERT_TRUE(in) << "the build writes it";

@@ -84,9 +84,27 @@ TEST_F(Help, WrongValuesSayHowItGoes) {
 }
 
 TEST_F(Help, JsonOfEveryVerbThatHasOneIsJson) {
-  for (const char* line : {"dvrlab list --json", "dvrlab describe image --json", "dvrlab doctor --json",
-                           "dvrlab info data/fuel.nrrd --json", "dvrlab validate configs/first_experiment.json --json"})
+  for (const char* line :
+       {"dvrlab describe axes --json", "dvrlab list --json", "dvrlab describe image --json", "dvrlab doctor --json",
+        "dvrlab info data/fuel.nrrd --json", "dvrlab validate configs/first_experiment.json --json"})
     json_of(line);
+}
+
+TEST_F(Help, EverySectionIsDescribed) {
+  for (const std::string section :
+       {"data", "optical_model", "estimator", "lights", "illumination", "camera", "clip", "sampling", "image", "limits",
+        "backend", "metrics", "axes", "reference", "expect", "include", "case"}) {
+    const Outcome o = run("dvrlab describe " + section);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.out.find(section + "\n"), 0u) << o.out;
+    EXPECT_EQ(run("dvrlab completion types | grep -qx " + section).code, 0) << section;
+  }
+  expect_words(run("dvrlab describe camera").out, {"camera.orbit", "camera.perspective", "A pinhole camera."});
+  expect_words(run("dvrlab describe data").out, {"data.nrrd", "shared by every type", "nan_policy"});
+  expect_words(run("dvrlab describe metrics").out, {"metric.psnr"});
+  expect_words(run("dvrlab describe axes").out, {"permutation", "variant", "{\"lin\": ...}", "[first, last, count]"});
+  expect_words(run("dvrlab describe expect").out, {"at_least", "where"});
+  EXPECT_EQ(json_of("dvrlab describe sampling --json")[0]["parts"][0]["name"], "sampling.uniform");
 }
 
 }  // namespace

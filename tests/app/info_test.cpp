@@ -102,7 +102,20 @@ TEST_F(Info, ScalingAndConfigs) {
   EXPECT_FALSE(formula.contains("histogram"));
 }
 
+// Nobody wrote a config, so nothing has a line in one.
+TEST_F(Info, AFolderWithSeveralSeries) {
+  if (run("dvrlab list data | grep -q dicom").code != 0) GTEST_SKIP() << "not supported: the dicom plugin is not built";
+  const Outcome o = run("dvrlab info data/dicom_torus");
+  expect_one_error(o, 2, {"error: data.series: ", "holds several series", "--set data.series=UID", "2.25.1"});
+  EXPECT_EQ(run("dvrlab info data/dicom_torus --set data.series=2.25.1").code, 0);
+  expect_one_error(run("dvrlab info data/dicom_torus --set data.seris=2.25.1"), 2, {"--set: data.seris", "'series'"});
+}
+
 TEST_F(Info, WhatCannotBeRead) {
+  write("empty.vti", "");
+  expect_one_error(run("dvrlab info empty.vti"), 2, {"empty.vti: is empty"});
+  expect_one_error(run("mkfifo pipe; timeout 10 dvrlab info pipe"), 2, {"pipe: is no regular file"});
+  expect_one_error(run("timeout 10 dvrlab info /dev/zero"), 2, {"/dev/zero: is no regular file"});
   write("notes.txt", "dear diary");
   expect_one_error(run("dvrlab info notes.txt"), 2, {"notes.txt: no reader recognises it", "nifti", "nrrd"});
   expect_one_error(run("dvrlab info nowhere.nrrd"), 2, {"there is no file or folder 'nowhere.nrrd'"});

@@ -59,6 +59,19 @@ TEST_F(Starter, TheWrittenConfigRendersTheSameImage) {
   EXPECT_EQ(run("dvrlab compare a.exr c.exr").code, 1) << "--set must reach the starter config";
 }
 
+// What was loaded for the starter config is rendered, unless --set leads to other data.
+TEST_F(Starter, SetOfTheDataReachesTheImage) {
+  const auto source = [&](const std::string& set) -> std::string {
+    const nlohmann::json j = json_of("dvrlab render data/fuel.nrrd --json --set image.size=[8,8] -o a.exr " + set);
+    return j["scene"]["source"];
+  };
+  EXPECT_TRUE(source("").ends_with("data/fuel.nrrd"));
+  const std::string other = R"({"type":"nrrd","file":"data/hydrogen.nrrd"})";
+  EXPECT_TRUE(source("--set data.file=data/hydrogen.nrrd").ends_with("data/hydrogen.nrrd"));
+  EXPECT_TRUE(source("--set 'data=" + other + "'").ends_with("data/hydrogen.nrrd"));
+  EXPECT_TRUE(source("--set 'axes.permutation.data=[" + other + "]'").ends_with("data/hydrogen.nrrd"));
+}
+
 TEST_F(Starter, NothingIsOverwrittenUnasked) {
   write("mine.json", "my own work");
   expect_one_error(run("dvrlab info data/fuel.nrrd --starter mine.json"), 2, {"mine.json", "exists", "--force"});

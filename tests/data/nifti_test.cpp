@@ -1,5 +1,6 @@
 // NIfTI files written by hand: types, byte orders, versions, scaling, affine maps, bad input; real files.
 #include <cmath>
+#include <optional>
 
 #include "tests/data/test_data.h"
 
@@ -19,6 +20,7 @@ struct Header {
   std::array<double, 12> srow{};
   std::string magic = {};
   int units = 0;
+  std::optional<double> vox_offset = {};  // directly behind the header when nothing is given
 
   template <class T>
   void put(Bytes& out, std::size_t at, double x) const {
@@ -43,7 +45,7 @@ struct Header {
     put<std::int16_t>(out, one ? 70 : 12, datatype);
     put<std::int16_t>(out, one ? 72 : 14, bits);
     for (std::size_t i = 0; i < 4; ++i) real(76, 104, i, pixdim[i]);
-    one ? put<float>(out, 108, 352) : put<std::int64_t>(out, 168, 544);
+    one ? put<float>(out, 108, vox_offset.value_or(352)) : put<std::int64_t>(out, 168, vox_offset.value_or(544));
     real(112, 176, 0, slope);
     real(116, 184, 0, intercept);
     one ? put<std::int8_t>(out, 123, units) : put<std::int32_t>(out, 500, units);
@@ -175,6 +177,64 @@ TEST_F(Nifti, AnatomyUnitsAndAnUnsetSlope) {
     half.intercept = std::numeric_limits<double>::quiet_NaN();
     half.version = version;
     EXPECT_NE(load_error("nifti", {{"file", file_of(half, voxels)}}).find("scl_inter"), std::string::npos);
+  }
+}
+
+// nifticlib would read the last bytes of the header as voxels.
+TEST_F(Nifti, VoxelsBeginWhereTheHeaderSays) {
+  Bytes voxels(24, 7);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const int version : {1, 2}) {
+    const int least = version == 1 ? 352 : 544;
+    for (const bool big : {false, true}) {
+      const auto with = [&](double offset) {
+        return Header{.version = version, .big_endian = big, .vox_offset = offset};
+      };
+      const auto plain = load_grid("nifti", {{"file", file_of(with(0), voxels)}});
+      EXPECT_EQ(plain->stored_min, 7) << "of the bytes behind the header";
+      EXPECT_TRUE(has_note(*plain, "vox_offset is 0 and taken as " + std::to_string(least)));
+      const auto later = load_grid("nifti", {{"file", file_of(with(least + 3), Bytes(3, 9) + voxels)}});
+      EXPECT_EQ(later->stored_min, 7);
+      EXPECT_EQ(later->stored_max, 7);
+      std::vector<double> bad{100, 348, double(least - 1), -352, 1e17};
+      if (version == 1) bad.insert(bad.end(), {nan, 352.5, std::numeric_limits<double>::infinity()});
+      for (const double offset : bad) {
+        const std::string error = load_error("nifti", {{"file", file_of(with(offset), voxels)}});
+        EXPECT_NE(error.find("vox_offset is "), std::string::npos) << offset << ": " << error;
+        EXPECT_NE(error.find("at least " + std::to_string(least)), std::string::npos) << error;
+      }
+    }
+  }
+}
+
+// What nifticlib repairs without a word decides the affine: it is refused, or a note says it.
+TEST_F(Nifti, NothingIsRepairedSilently) {
+  const Bytes voxels(24, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const int version : {1, 2}) {
+    const auto error = [&](Header h, const char* part) {
+      h.version = version;
+      const std::string text = load_error("nifti", {{"file", file_of(h, voxels)}});
+      EXPECT_NE(text.find(part), std::string::npos) << "wanted \"" << part << "\", got \"" << text << '"';
+    };
+    error({.pixdim = {1, 0, 3, 4}}, "pixdim[1] is 0");
+    error({.pixdim = {1, 2, nan, 4}}, "pixdim[2] is nan");
+    error({.pixdim = {1, 2, 3, -4}, .qform = 1}, "pixdim[3] is -4; with a qform");
+    error({.pixdim = {nan, 2, 3, 4}, .qform = 1}, "pixdim[0] is nan");
+    error({.qform = 1, .quatern = {0, nan, 0}}, "the qform holds a number that is not finite");
+    error({.qform = 1, .quatern = {0, 0, 0, 0, 0, nan}}, "the qform holds a number that is not finite");
+    error({.qform = 1, .quatern = {1, 1, 0}}, "is 2; a rotation has at most 1");
+    const auto load_it = [&](Header h) {
+      h.version = version;
+      return load("nifti", {{"file", file_of(h, voxels)}});
+    };
+    EXPECT_TRUE(has_note(*load_it({.qform = 1, .quatern = {0.70711, 0.7072, 0}}), "scaled to 1"));
+    EXPECT_FALSE(has_note(*load_it({.qform = 1, .quatern = {std::sqrt(0.5), std::sqrt(0.5), 0}}), "scaled"));
+    EXPECT_TRUE(has_note(*load_it({.bits = 16}), "bitpix is 16, but the data type uint8 decides"));
+    // What does not decide is not judged: the sform is the affine here.
+    Header by_sform{.pixdim = {1, 0, nan, 4}, .qform = 1, .sform = 1};
+    by_sform.srow = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    EXPECT_EQ(world(*load_it(by_sform), {1, 1, 1}), (Vector3{1, 1, 1}));
   }
 }
 

@@ -168,7 +168,11 @@ TEST(Nrrd, BadInputGetsOneClearError) {
        "axis 1 is \"none\""},
       {with("type: uint8\ndimension: 3\nsizes: 4 3 2\nspace directions: (1,0) (0,1) (1,1)\n" + tail),
        "has 2 components"},
-      {with("type: uint8\ndimension: 3\nsizes: 4 3 2\nspacings: 1 0 1\n" + tail + std::string(24, 'x')), "singular"},
+      {with("type: uint8\ndimension: 3\nsizes: 4 3 2\nspacings: 1 0 1\n" + tail + std::string(24, 'x')),
+       "\"spacings\": is 0 along axis 2"},
+      {with("type: uint8\ndimension: 3\nsizes: 4 3 2\nspace dimension: 3\nspace directions: (1,0,0) (1,0,0) (0,0,1)\n" +
+            tail + std::string(24, 'x')),
+       "singular"},
       {with("type: uint8\ndimension: 3\nsizes: 4 3 2\nspacings: 1 inf 1\n" + tail), "not finite"},
       {with("type: uint8\ndimension: 3\nsizes: 4 3 2\nspace: left-posterior-superior-time\n" + tail),
        "no space of three"},

@@ -90,7 +90,8 @@ TEST_F(VtiErrors, Geometry) {
   expect_error(extent("0 99999999999 0 2 0 1", "0 3 0 2 0 1"), "no whole number of 32 bits");
   expect_error(extent("0 3 0 2 0 1", "0 4 0 2 0 1"), "does not lie in the WholeExtent");
   expect_error(extent("0 4 0 2 0 1", "0 3 0 2 0 1"), "leave a part of the WholeExtent \"0 4 0 2 0 1\" empty");
-  expect_error(grid(R"(Spacing="1 0 1")"), "singular");
+  expect_error(grid(R"(Spacing="1 0 1")"), "Spacing holds a 0");
+  expect_error(grid(R"(Direction="1 1 0 0 0 0 0 0 1")"), "singular");
   expect_error(grid(R"(Spacing="1 inf 1")"), "is no finite number");
   expect_error(grid(R"(Origin="nan 0 0")"), "Origin: \"nan\" is no finite number");
   expect_error(grid(R"(Spacing="1 1")"), "must be 3 numbers");

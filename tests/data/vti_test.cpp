@@ -182,7 +182,9 @@ TEST_F(Vti, Recognises) {
   EXPECT_TRUE(recognises("a.VTI", "anything"));
   EXPECT_TRUE(recognises("a.xml", R"(<?xml version="1.0"?><VTKFile type="ImageData" version="0.1">)"));
   EXPECT_FALSE(recognises("a.vtu", R"(<VTKFile type="UnstructuredGrid">)"));
-  EXPECT_FALSE(recognises("folder.vti", ""));
+  std::filesystem::create_directories(scratch("folder.vti"));
+  EXPECT_FALSE(recognises(scratch("folder.vti"), ""));
+  EXPECT_TRUE(recognises("empty.vti", "")) << "to say that it is empty";
   EXPECT_FALSE(recognises("a", "NRRD0004"));
 }
 

@@ -95,7 +95,11 @@ TEST(Expect, IsCheckedBeforeAnythingRuns) {
                {"expect[0]", "no metric 'ssim'", "psnr"});
   expect_error(with(R"({"metric": "psnr", "against": "thruth", "at_least": 1})"), {"did you mean 'truth'?"});
   expect_error(with(R"({"metric": "psnr", "against": "truth", "at_least": 1, "where": {"sampling.step": 7}})"),
-               {"no case is meant"});
+               {"expect[0].where.sampling.step", "found 7, which no case has", "the values are 1"});
+  expect_error(small_config(R"(, "metrics": ["psnr"], "reference": {"truth": {}},
+    "axes": {"permutation": {"zip": [{"seed": [1, 2], "repeat": [1, 2]}]}}, "expect": [{"metric": "psnr",
+    "against": "truth", "at_least": 1, "where": {"seed": 1, "repeat": 2}}])"),
+               {"expect[0]", "no case is meant"});
   expect_error(with(R"({"metric": "psnr", "against": "truth", "order": {"by": "estimator.type", "is": "increasing"}})"),
                {"is no number"});
   expect_error(with(R"({"metric": "psnr", "against": "truth", "atleast": 1})"),

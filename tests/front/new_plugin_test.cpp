@@ -115,6 +115,7 @@ TEST_F(NewPluginTest, BadAndTakenNames) {
 TEST_F(NewPluginTest, AFolderThatCannotBeMade) {
   std::ofstream("file") << "";
   expect_words(refusal("metric", "mine", "file"), {"file/mine cannot be made"});
+  expect_words(refusal("metric", std::string(300, 'a')), {"new-plugin: the folder a", "cannot be made", "too long"});
 }
 
 TEST_F(NewPluginTest, CommandLine) {

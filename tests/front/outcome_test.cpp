@@ -42,6 +42,14 @@ TEST_F(Outcome, ExpectationAgainstVariantMeansTheOthers) {
   expect_error(small_config(expect + "0}]"), {"expect[0]", "there is no reference 'variant'"});
 }
 
+TEST_F(Outcome, ARefusedRerunLeavesNoOldImages) {
+  const std::string images = run(small_config()).folder + "/cases/case/image";
+  EXPECT_TRUE(fs::exists(images + ".exr") && fs::exists(images + ".png"));
+  const RunSummary refused = run(small_config(), {"limits.memory=1000"});
+  EXPECT_EQ(refused.records.at(0).verdict, Verdict::not_supported);
+  EXPECT_FALSE(fs::exists(images + ".exr") || fs::exists(images + ".png")) << "they are of another case.json";
+}
+
 // The folder with config, data and results is moved; a case still runs, on the data of the new place.
 TEST_F(Outcome, ResultsMoveWithTheirFolder) {
   const std::string old = folder_ + "/project", moved = folder_ + "/elsewhere/project";

@@ -44,6 +44,8 @@ RIGHT = {
                                     "expect": [{"metric": "psnr", "against": "fine", "at_least": 1,
                                                 "where": {"sampling.step": 1}}]},
     "keys that vary together": {"axes": {"permutation": {"zip": [{"sampling.step": [1, 2], "seed": [1, 2]}]}}},
+    "whole numbers of a range": {"image": {"size": [8, 8]}, "axes": {"permutation": {"image.size[0]": {"lin": [4, 8, 3]}}}},
+    "four lights": {"lights": [{"type": "head"}] * 4},
     "null nodes": {"optical_model.opacity": None, "optical_model.emission": "null"},
 }
 WRONG = {
@@ -72,6 +74,11 @@ WRONG = {
     "axis without values": {"axes": {"permutation": {"seed": []}}},
     "illegal value of an axis": {"axes": {"permutation": {"sampling.step": [1, -2]}}},
     "unknown key of a zip": {"axes": {"permutation": {"zip": [{"sampling.stepp": [1, 2]}]}}},
+    "empty zip": {"axes": {"permutation": {"zip": []}}},
+    "zip of nothing": {"axes": {"permutation": {"zip": [{}]}}},
+    "five lights": {"lights": [{"type": "head"}] * 5},
+    "range of one value": {"axes": {"permutation": {"sampling.step": {"lin": [1, 2, 1]}}}},
+    "range of half a value": {"axes": {"permutation": {"sampling.step": {"lin": [1, 2, 2.5]}}}},
     "zip that is no list": {"axes": {"permutation": {"zip": {"seed": [1, 2]}}}},
     "unknown range": {"axes": {"permutation": {"sampling.step": {"log3": [1, 2]}}}},
     "unknown key of a reference": {"reference": {"fine": {"sampling.stepp": 1}}},

@@ -26,7 +26,7 @@ def run(*command, code=0, cwd=None):
 
 
 def configure(source, target, package):
-    run(cmake, "-S", source, "-B", target, f"-Ddvrlab_DIR={package}", f"-DCMAKE_CXX_COMPILER={compiler}",
+    run(cmake, "-G", "Ninja", "-S", source, "-B", target, f"-Ddvrlab_DIR={package}", f"-DCMAKE_CXX_COMPILER={compiler}",
         f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}", f"-DCMAKE_CXX_FLAGS={flags}")
 
 

@@ -30,7 +30,6 @@ const Registry& registry() {
 namespace {
 ResolvedCase resolved(const nlohmann::json& config) {
   const Experiment e = plan_experiment(parse_document(config.dump(), "test.json", DVRLAB_SOURCE), registry());
-  check_case(e.cases.front().resolved, registry());
   return e.cases.front().resolved;
 }
 }  // namespace

@@ -97,7 +97,8 @@ SeriesFiles find_series(const std::string& path, const std::string& wanted, cons
                      list_of(all));
   if (uids.size() > 1)
     throw InputError(series_key + ": " + folder.string() + " holds several series" +
-                     (chosen.empty() ? "" : " that begin with \"" + chosen + "\"") + "; choose one: " + list_of(all));
+                     (chosen.empty() ? "" : " that begin with \"" + chosen + "\"") + "; choose one (--set " +
+                     series_key + "=UID): " + list_of(all));
   result.file = all.at(uids[0]).file;
   result.notes.push_back("series " + text_of(all.at(uids[0])));
   if (all.size() > 1)

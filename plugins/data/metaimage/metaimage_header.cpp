@@ -42,7 +42,7 @@ std::size_t read_dims(const MetaText& text, GridFile& file) {
   return static_cast<std::size_t>(axes);
 }
 
-// The first three of `count` finite numbers under the first of these names that the header has.
+// `count` finite numbers; none when the header lacks the field.
 std::vector<double> finite_numbers(const MetaText& text, const std::string& field, std::size_t count) {
   const auto numbers = text.numbers(field, count);
   if (std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
@@ -57,6 +57,8 @@ void read_geometry(const MetaText& text, std::size_t axes, GridFile& file) {
                     spacing = text.find("ElementSpacing") ? "ElementSpacing" : "ElementSize";
   const auto steps = finite_numbers(text, spacing, axes);
   if (steps.empty()) file.notes.push_back("the file has no spacing: 1 along each axis");
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, steps.size()); ++c)
+    if (steps[c] == 0) text.fail(spacing, "is 0 along axis " + std::to_string(c + 1) + "; a spacing is another number");
   if (!steps.empty() && spacing == "ElementSize")
     file.notes.push_back("ElementSize is taken as the spacing; the file has no ElementSpacing");
   const auto matrix = finite_numbers(text, directions, axes * axes), first = finite_numbers(text, origin, axes);

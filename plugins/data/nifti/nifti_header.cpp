@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "framework/interfaces/error.h"
+#include "framework/report/number_text.h"
 
 namespace dvrlab::nifti {
 namespace {
@@ -99,6 +100,40 @@ std::array<long long, 3> read_dims(const std::array<long long, 8>& dim, const st
   return {dim[1], dim[2], dim[3]};
 }
 
+// nifticlib takes 1 for a pixdim that is 0 or not finite, or negative under a qform, and 0 for a part of the quaternion
+// that is not finite: what decides the affine is judged before that.
+template <class Header>
+void check_affine(std::span<const std::byte> file, bool swap, const std::string& name, NiftiHeader& h) {
+  const auto code = [&](std::size_t offset) { return load<decltype(Header::qform_code)>(file, offset, swap); };
+  if (code(offsetof(Header, sform_code)) > 0) return;
+  const bool qform = code(offsetof(Header, qform_code)) > 0;
+  using Real = std::remove_extent_t<decltype(Header::pixdim)>;
+  const auto real = [&](std::size_t offset) -> double { return load<Real>(file, offset, swap); };
+  for (std::size_t a = qform ? 0 : 1; a <= 3; ++a) {
+    const double x = real(offsetof(Header, pixdim) + a * sizeof(Real));
+    if (std::isfinite(x) && (a == 0 || (qform ? x > 0 : x != 0))) continue;
+    throw InputError(name + ": pixdim[" + std::to_string(a) + "] is " + number_text(x) +
+                     (a == 0  ? "; it must be -1 or 1"
+                      : qform ? "; with a qform it must be a spacing above 0"
+                              : "; it must be a spacing, finite and not 0"));
+  }
+  if (!qform) return;
+  double square = 0;
+  for (const std::size_t at : {offsetof(Header, quatern_b), offsetof(Header, quatern_c), offsetof(Header, quatern_d),
+                               offsetof(Header, qoffset_x), offsetof(Header, qoffset_y), offsetof(Header, qoffset_z)}) {
+    const double x = real(at);
+    if (!std::isfinite(x)) throw InputError(name + ": the qform holds a number that is not finite");
+    if (at < offsetof(Header, qoffset_x)) square += x * x;
+  }
+  // Beyond what rounding makes of a half turn there is no rotation; the library would scale (b, c, d) to length 1.
+  if (square > 1.001)
+    throw InputError(name + ": quatern_b^2 + quatern_c^2 + quatern_d^2 is " + number_text(square) +
+                     "; a rotation has at most 1");
+  if (square > 1.000001)
+    h.notes.push_back("quatern_b, quatern_c and quatern_d have the length " + number_text(std::sqrt(square)) +
+                      " and are scaled to 1");
+}
+
 void read_affine(const nifti_image& image, const std::string& name, NiftiHeader& h) {
   const bool sform = image.sform_code > 0, qform = image.qform_code > 0;
   h.notes.push_back(std::string("world frame: RAS, by the file's ") +
@@ -155,6 +190,22 @@ void read_scaling(std::span<const std::byte> file, bool swap, const std::string&
   h.intercept = intercept;
 }
 
+// Read from the raw header: nifticlib moves what lies in front of the header's end there, 4 bytes before the voxels.
+template <class Header>
+std::uint64_t read_voxel_offset(std::span<const std::byte> file, bool swap, const std::string& name, NiftiHeader& h) {
+  constexpr std::size_t least = sizeof(Header) + 4;  // the flag for extensions is always there
+  constexpr double most = 1e15;                      // whole numbers are exact; no file is longer
+  const auto offset = static_cast<double>(load<decltype(Header::vox_offset)>(file, offsetof(Header, vox_offset), swap));
+  if (offset == 0) {
+    h.notes.push_back("vox_offset is 0 and taken as " + std::to_string(least) + ", directly behind the header");
+    return least;
+  }
+  if (!(offset >= double(least) && offset <= most) || offset != std::floor(offset))
+    throw InputError(name + ": vox_offset is " + number_text(offset, 9) + "; it must be a whole number of at least " +
+                     std::to_string(least) + ", the header and the 4 bytes behind it");
+  return static_cast<std::uint64_t>(offset);
+}
+
 template <class Header>
 NiftiHeader read(std::span<const std::byte> file, bool swap, nifti_image* (*to_image)(Header, const char*),
                  const std::string& name) {
@@ -167,11 +218,13 @@ NiftiHeader read(std::span<const std::byte> file, bool swap, nifti_image* (*to_i
   h.type = source_type(load<std::int16_t>(file, offsetof(Header, datatype), swap), name);
   grid_bytes(h.dims, bytes_of(h.type), name);
   read_scaling<Header>(file, swap, name, h);
+  h.voxel_offset = read_voxel_offset<Header>(file, swap, name, h);
+  const auto bits = load<std::int16_t>(file, offsetof(Header, bitpix), swap);
+  if (static_cast<std::size_t>(bits) != 8 * bytes_of(h.type))
+    h.notes.push_back("bitpix is " + std::to_string(bits) + ", but the data type " + name_of(h.type) + " decides");
+  check_affine<Header>(file, swap, name, h);
   const Image image = convert(file, to_image, name);
   if (!image) throw InputError(name + ": nifticlib refuses the header");
-  if (image->iname_offset < static_cast<std::int64_t>(sizeof(Header)))
-    throw InputError(name + ": vox_offset is " + std::to_string(image->iname_offset) + ", inside the header");
-  h.voxel_offset = static_cast<std::uint64_t>(image->iname_offset);
   h.length_unit = read_unit(image->xyz_units);
   read_affine(*image, name, h);
   return h;

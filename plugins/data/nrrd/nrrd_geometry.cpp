@@ -91,6 +91,10 @@ void read_geometry(const NrrdText& text, const Axes& axes, GridFile& file) {
       if (directions.empty()) notes.push_back("an unknown spacing (nan) is taken as 1");
       spacing = 1;
     }
+    if (directions.empty() && spacing == 0)
+      text.fail("spacings", "is 0 along axis " + std::to_string(axis + 1) + "; a spacing is another number");
+    if (!directions.empty() && directions[axis] == Vector3{0, 0, 0})
+      text.fail("space directions", "axis " + std::to_string(axis + 1) + " is (0,0,0); an axis has a direction");
     if (!directions.empty() && !directions[axis])
       text.fail("space directions",
                 "axis " + std::to_string(axis + 1) + " is \"none\"; each axis of a volume has a vector \"(x,y,z)\"");

@@ -49,6 +49,10 @@ const std::vector<std::string> known_fields{"axis maxs",
 NrrdText::NrrdText(std::span<const std::byte> file, const std::string& name) : HeaderFields(name) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), std::min(file.size(), longest_header));
   if (!text.starts_with("NRRD000")) throw InputError(name + ": is no NRRD file; its first bytes are not \"NRRD000\"");
+  if (const char version = text.size() > 7 ? text[7] : ' '; version < '1' || version > '5')
+    throw InputError(name + ": line 1 is " +
+                     quoted(std::string(text.substr(0, std::min<std::size_t>(text.find('\n'), 20)))) +
+                     "; the versions NRRD0001 to NRRD0005 are read");
   int number = 1;
   while (end_ < text.size() && !ended_) {
     const std::size_t stop = std::min(text.find('\n', end_), text.size());

@@ -1,5 +1,6 @@
 // The VTK ImageData reader: .vti, one array of its point data.
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 
 #include "framework/interfaces/error.h"
@@ -62,7 +63,8 @@ SourceVoxels volume_of(const Opened& o) {
 class Vti : public DataPlugin {
  public:
   bool recognises(const std::string& path, std::span<const std::byte> start) const override {
-    if (start.empty()) return false;  // a folder
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) return false;
     std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
     std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());

@@ -97,6 +97,7 @@ class Reader : public XmlVisitor {
     auto origin = a.numbers("Origin", 3), spacing = a.numbers("Spacing", 3), direction = a.numbers("Direction", 9);
     origin.resize(3, 0);
     if (spacing.empty()) spacing = {1, 1, 1};
+    if (std::count(spacing.begin(), spacing.end(), 0) > 0) a.fail("Spacing holds a 0; a spacing is another number");
     if (direction.empty()) direction = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     Affine& affine = header_.to_world;
     for (std::size_t r = 0; r < 3; ++r)
