@@ -7,7 +7,8 @@
 namespace dvrlab {
 
 std::vector<ProbeSegment> BackendSession::probe(const FrameJob&, int, int) {
-  throw NotSupported("backend " + device().api + ": no probe; probe with backend cpu, which marches the same bits");
+  throw NotSupported("backend " + device(Precision::strict).api +
+                     ": no probe; probe with backend cpu, which marches the same bits");
 }
 
 std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y) {

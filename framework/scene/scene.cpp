@@ -23,6 +23,8 @@ LoadContext load_context(const ResolvedCase& c) {
   return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
 }
 
+Precision precision_of(const ResolvedCase& c) { return static_cast<Precision>(c.top.choice_index("precision")); }
+
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
   const std::string wanted = c.data.parameters.text("sampler");
@@ -96,7 +98,7 @@ constexpr double most_segments = 65535;
 void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame) {
   const auto number = [&](const char* name) {
     for (const Uniform& u : frame.uniforms)
-      if (u.name == name) return double(u.f[0]);
+      if (u.name == name) return u.f[0];
     return 0.0;
   };
   const double diagonal = length(field.to_world.vector(minus(field.hi, field.lo)));
@@ -149,9 +151,9 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
                     registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type").declaration());
   if (c.lights.size() > 4)
     throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
-  if (c.top.text("precision") == "fast" &&
-      !registry.get<BackendPlugin>("backend", c.backend.type, "backend.type").supports_fast())
-    throw InputError("precision: backend \"" + c.backend.type + "\" has no \"fast\" arithmetic; use \"strict\"");
+  const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")
+                                  .refuses(precision_of(c), c.backend.parameters);
+  if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
   if (c.illumination.size() > 1)
     throw InputError("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
                      "); give one");
@@ -172,8 +174,8 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
   if (grid != nullptr) memory.state("data", static_cast<double>(grid->bytes()));
   if (grid != nullptr && c.sampling.parameters.boolean("skipping"))
     memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
-  memory.state("transfer function table",
-               static_cast<double>(c.optical_model.parameters.integer("tf_entries")) * medium_columns * sizeof(float));
+  memory.state("transfer function table", static_cast<double>(c.optical_model.parameters.integer("tf_entries")) *
+                                              medium_columns * (sizeof(float) + sizeof(double)));
   const std::string sampler = sampler_of(c, field);
   memory.state("sampler '" + sampler + "'",
                static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler).bytes_needed(field)));
@@ -213,7 +215,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const nlohmann::json& size = c.image.json("size");
   job.width = size[0].get<int>();
   job.height = size[1].get<int>();
-  job.fast = c.top.text("precision") == "fast";
+  job.precision = precision_of(c);
   job.kernel_folder = Registry::kernel_folder();
   if (!c.limits.is_null("gpu_buffer")) job.gpu_buffer_limit = std::uint64_t(c.limits.integer("gpu_buffer"));
 

@@ -39,8 +39,8 @@ Volume run_cpu(const FrameJob& job, const Stage& stage, const std::string& isa) 
   cpu::Bindings bindings;
   bindings.add(job.frame);
   bindings.add(stage.unit);
-  const cpu::ModuleFrame frame(modules.get(DVRLAB_SPIKE_PLUGINS "/stage", stage.unit.plugin, isa), bindings.view(),
-                               job.rgb ? DVR_FEATURE_RGB : 0);
+  const cpu::ModuleFrame<float> frame(modules.get(DVRLAB_SPIKE_PLUGINS "/stage", stage.unit.plugin, isa),
+                                      bindings.view(), job.rgb ? DVR_FEATURE_RGB : 0);
   const auto [nx, ny, nz] = stage.size;
   Volume out(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
   const cpu::KeepDenormals keep;

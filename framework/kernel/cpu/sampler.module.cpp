@@ -38,15 +38,15 @@ using dvr::floor;
 #endif
 
 template <class S>
-int make(void* frame, const dvr_bindings* bindings, dvr_calls* calls, char* missing) {
+int make(void* frame, const dvr_bindings* bindings, module_calls* calls, char* missing) {
   missing[0] = 0;
   new (frame) S(bindings, missing);
-  calls->sampler.start = [](const void* f, dvr_packet* p) { local<S>(f).start(p); };
-  calls->sampler.fill = [](const void* f, dvr_packet* p, dvr_chunk* c) { return local<S>(f).fill(p, c); };
+  calls->sampler.start = [](const void* f, ray_packet* p) { local<S>(f).start(p); };
+  calls->sampler.fill = [](const void* f, ray_packet* p, ray_chunk* c) { return local<S>(f).fill(p, c); };
   return missing[0] != 0;
 }
 
-int init(void* frame, const dvr_bindings* bindings, int, dvr_calls* calls, char* missing) {
+int init(void* frame, const dvr_bindings* bindings, int, module_calls* calls, char* missing) {
 #if DVR_HAS_VOXELS
   for (int k = 0; k < bindings->buffer_count; ++k) {
     if (strcmp(bindings->buffers[k].name, DVR_KERNEL_NAME "_voxels") != 0) continue;
@@ -79,8 +79,8 @@ typedef Sampler_f32 largest;
 constexpr unsigned walk_bytes = 0;
 #endif
 
-const dvr_kernel_module module = {DVR_KERNEL_ABI,  "sampler",        DVR_KERNEL_NAME, W,    DVR_PACKET_COLUMNS,
-                                  sizeof(largest), alignof(largest), walk_bytes,      &init};
+const dvr_kernel_module module = {DVR_KERNEL_ABI,   "sampler",  DVR_KERNEL_NAME, W, DVR_PACKET_COLUMNS, sizeof(largest),
+                                  alignof(largest), walk_bytes, DVR_INIT(&init)};
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const dvr_kernel_module* dvrlab_kernel_module() { return &module; }

@@ -5,7 +5,7 @@ struct Walker : kernel_base {
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
 #include DVR_KERNEL_FILE
@@ -13,7 +13,7 @@ struct Walker : kernel_base {
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)
 
-  KFN void start(dvr_packet* p) {
+  KFN void start(ray_packet* p) {
     ray r;
     r.grid_o = load3(p->grid_o);
     r.grid_d = load3(p->grid_d);
@@ -35,7 +35,7 @@ struct Walker : kernel_base {
 
   // `ends`: row k is the front end of segment k, row k+1 its back end, as the positional sampler leaves them.
   // `centre`: row k+1 is the centre of segment k, half way, since the scalar is linear between faces.
-  KFN int fill(dvr_packet* p, dvr_chunk* c) {
+  KFN int fill(ray_packet* p, ray_chunk* c) {
     const inti i = load(p->i);
     inti n = load(p->n);
     if (!any_lane(i < n)) return 0;
@@ -74,11 +74,11 @@ struct Walker : kernel_base {
     return k;
   }
 
-  KFN static void put(dvr_chunk* c, int row, real s, real v) {
+  KFN static void put(ray_chunk* c, int row, real s, real v) {
     store(c->s + row * W, s);
     store(c->v + row * W, v);
   }
-  KFN static void put_gradient(dvr_chunk* c, int row, vec3r g) {
+  KFN static void put_gradient(ray_chunk* c, int row, vec3r g) {
     store(c->g[0] + row * W, g.x);
     store(c->g[1] + row * W, g.y);
     store(c->g[2] + row * W, g.z);
