@@ -20,6 +20,7 @@ std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry
   std::vector<Parameter> declared(cpu.descriptor->parameters,
                                   cpu.descriptor->parameters + cpu.descriptor->parameter_count);
   for (const Parameter& p : declared) values[p.name] = nlohmann::json::parse(p.default_value);
+  // isa stays at its default: precision fp64 has modules of its own, and the others march the same bits.
   const auto session =
       registry.get<BackendPlugin>("backend", "cpu").open(ParameterSet("backend", declared, values), cpu.folder);
   return session->probe(scene.job, x, y);

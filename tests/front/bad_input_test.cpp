@@ -106,6 +106,13 @@ const std::vector<BadInput>& bad_inputs() {
                    {"c.json:10:3: lights", "found 5 lights", "at most 4"}),
       wrong_config("precision_of_the_cpu", config("  \"precision\": \"fast\""),
                    {"c.json:10:3: precision", "\"cpu\" has no \"fast\"", "use \"strict\""}),
+      wrong_config("fp64_on_vulkan", config("  \"precision\": \"fp64\",\n  \"backend\": {\"type\":\"vulkan\"}"),
+                   {"c.json:10:3: precision", "\"vulkan\" has no \"fp64\"", "in double for the cpu only", "\"cpu\""}),
+      wrong_config("fp64_on_opengl", config("  \"precision\": \"fp64\",\n  \"backend\": {\"type\":\"opengl\"}"),
+                   {"c.json:10:3: precision", "\"opengl\" has no \"fp64\"", "in double for the cpu only"}),
+      wrong_config("fp64_with_an_isa",
+                   config("  \"precision\": \"fp64\",\n  \"backend\": {\"type\":\"cpu\",\"isa\":\"avx2\"}"),
+                   {"c.json:10:3: precision", "for every processor", "backend.isa at \"auto\""}),
       // experiments
       wrong_config("axis_empty", config("  \"axes\": {\"permutation\": {\"sampling.step\": []}}"),
                    {"c.json:10:28: axes.permutation.sampling.step", "not empty", "log2"}),
