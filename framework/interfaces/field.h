@@ -54,7 +54,7 @@ struct GridField : Field {
   mutable std::shared_ptr<const void> macrocells;  // the scene stage's value ranges, made at the first use
 };
 
-/// A field that is evaluated by its formula at every sample; value and gradient are exact up to fp32.
+/// A field that is evaluated by its formula at every sample; value and gradient are exact up to rounding.
 struct FormulaField : Field {
   std::vector<Uniform> uniforms;  // for the formula sampler
   std::vector<Buffer> buffers;

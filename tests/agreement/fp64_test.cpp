@@ -56,6 +56,7 @@ TEST(Fp64, ThreadsAndTilesChangeNoBit) {
 TEST(Fp64, SkippingChangesNoBit) {
   View view = view_of(grid("sphere", "float32"), 0.5, false);
   view.config["data"] = grid("sphere", "float32");
+  view.config["optical_model"]["opacity"] = {{0, 0}, {0.3, 0}, {1, 0.5}};
   view.config["precision"] = "fp64";
   const Target cpu{"cpu", {{"type", "cpu"}}};
   const FrameResult all = render(view.config, cpu);

@@ -113,7 +113,8 @@ TEST_P(Session, UnknownDeviceListsWhatIsThere) {
     EXPECT_NE(text.find("no such card"), std::string::npos) << text;
     EXPECT_NE(text.find("0: "), std::string::npos) << text;
   }
-  EXPECT_EQ(open(GetParam(), {{"device", "\"0\""}})->device(Precision::strict).api, session->device(Precision::strict).api);
+  EXPECT_EQ(open(GetParam(), {{"device", "\"0\""}})->device(Precision::strict).api,
+            session->device(Precision::strict).api);
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, Session, testing::Values("vulkan", "opengl"),

@@ -22,7 +22,7 @@ struct Probe : kernel_base {
 #include "framework/kernel/cpu/math.h"
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/steps.kernel"
-// clang-format on
+  // clang-format on
 };
 
 template <class F>

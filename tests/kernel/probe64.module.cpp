@@ -13,7 +13,7 @@ struct Probe {
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/cpu/math.h"
-// clang-format on
+  // clang-format on
 };
 
 #define PROBE_MAP(expression)              \

@@ -20,4 +20,5 @@ class Formula : public SamplerPlugin {
 }  // namespace
 
 DVRLAB_PLUGIN_PLAIN("sampler", "formula", "1.0", Formula,
-                    "evaluates a procedural field at every sample: no grid, value and gradient exact up to fp32", "")
+                    "evaluates a procedural field at every sample: no grid, value and gradient exact up to rounding",
+                    "")
