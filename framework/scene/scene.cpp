@@ -9,6 +9,7 @@
 #include "framework/interfaces/transfer_function.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/camera.h"
+#include "framework/scene/cells.h"
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
 #include "framework/scene/medium_table.h"
@@ -75,9 +76,25 @@ MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
   return o;
 }
 
+/// Skipping concerns samples at equal distances only.
+bool skips(const ResolvedCase& c) { return !samples_cells(c) && c.sampling.parameters.boolean("skipping"); }
+
+/// World units. Where segments follow the cells of the data, estimators are told a voxel.
+double step_of(const ResolvedCase& c, const Field& field, std::vector<std::string>& notes) {
+  if (samples_cells(c)) return field.voxel;
+  const ParameterSet& p = c.sampling.parameters;
+  if (p.text("unit") != "voxel") return p.number("step");
+  const double step = p.number("step") * field.voxel;
+  char text[120];
+  std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (smallest spacing %.9g)",
+                p.number("step"), step, field.voxel);
+  notes.emplace_back(text);
+  return step;
+}
+
 void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
   const ParameterSet& p = c.sampling.parameters;
-  const double jitter = p.number("jitter");
+  const double jitter = samples_cells(c) ? 0.0 : p.number("jitter");
   const auto background = c.image.vector3("background");
   const bool linear = c.image.text("space") == "linear";
   const auto decode = [&](double x) { return linear ? display_to_linear(x) : x; };
@@ -153,6 +170,7 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
     throw InputError("lights: " + std::to_string(c.lights.size()) + " lights; at most 4 are shaded at once");
   const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")
                                   .refuses(precision_of(c), c.backend.parameters);
+  check_cells(c);
   if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
   if (c.illumination.size() > 1)
     throw InputError("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
@@ -172,8 +190,7 @@ void check_case(const ResolvedCase& c, const Registry& registry) {
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory) {
   const auto* grid = dynamic_cast<const GridField*>(&field);
   if (grid != nullptr) memory.state("data", static_cast<double>(grid->bytes()));
-  if (grid != nullptr && c.sampling.parameters.boolean("skipping"))
-    memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
+  if (grid != nullptr && skips(c)) memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
   memory.state("transfer function table", static_cast<double>(c.optical_model.parameters.integer("tf_entries")) *
                                               medium_columns * (sizeof(float) + sizeof(double)));
   const std::string sampler = sampler_of(c, field);
@@ -192,14 +209,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   Scene scene;
   scene.field = field;
   scene.notes = field->notes;
-  const ParameterSet& sampling = c.sampling.parameters;
-  scene.step = sampling.number("step") * (sampling.text("unit") == "voxel" ? field->voxel : 1.0);
-  if (sampling.text("unit") == "voxel") {
-    char text[120];
-    std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (smallest spacing %.9g)",
-                  sampling.number("step"), scene.step, field->voxel);
-    scene.notes.emplace_back(text);
-  }
+  scene.step = step_of(c, *field, scene.notes);
 
   const TfDomain domain = tf_domain(c.optical_model.parameters, *field);
   if (!domain.note.empty()) scene.notes.push_back(domain.note);
@@ -235,10 +245,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
 
   job.frame.plugin = "frame";
   add_camera(c.camera, *field, job.width, job.height, job.frame);
-  refuse_tiny_step(*field, scene.step, job.frame);
+  if (!samples_cells(c)) refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, scene.step, job.frame);
-  add_skipping(sampling.boolean("skipping"), *field, scene.medium, options, job.frame);
+  add_skipping(skips(c), *field, scene.medium, options, job.frame);
   add_medium(scene.medium, options, job.frame);
   add_shading(shading, std::abs(field->slope), job.frame);
   const bool gradient = job.full && (shaded || surfaces) && shading.mode == LocalShading::Mode::blinn_phong;
@@ -252,7 +262,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.sampler = registry.get<SamplerPlugin>("sampler", sampler).bind(*field);
   job.sampler.plugin = sampler;
   job.sampler.folder = registry.find("sampler", sampler).folder;
-  if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
+  if (samples_cells(c))
+    add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
+              OccupiedBins(scene.medium, options), job.frame);
+  if ((samples_cells(c) || walks(job.sampler)) && (declared.fixed_length || (declared.neighbours && surfaces)))
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" needs equally spaced samples, but sampler \"" + sampler +
                      "\" ends its segments at the faces of cells; choose another estimator");

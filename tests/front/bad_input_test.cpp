@@ -110,6 +110,8 @@ const std::vector<BadInput>& bad_inputs() {
                    {"c.json:10:3: precision", "\"vulkan\" has no \"fp64\"", "in double for the cpu only", "\"cpu\""}),
       wrong_config("fp64_on_opengl", config("  \"precision\": \"fp64\",\n  \"backend\": {\"type\":\"opengl\"}"),
                    {"c.json:10:3: precision", "\"opengl\" has no \"fp64\"", "in double for the cpu only"}),
+      wrong_config("cells_in_fp32", config("  \"sampling\": {\"type\":\"cells\"}"),
+                   {"sampling.type", "walks in double only", "precision to \"fp64\""}),
       wrong_config("fp64_with_an_isa",
                    config("  \"precision\": \"fp64\",\n  \"backend\": {\"type\":\"cpu\",\"isa\":\"avx2\"}"),
                    {"c.json:10:3: precision", "for every processor", "backend.isa at \"auto\""}),

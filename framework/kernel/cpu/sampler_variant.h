@@ -1,4 +1,5 @@
-// One voxel type of the sampler module (not guarded: included once per type).
+// One voxel type of the sampler module (not guarded: included once per type), and in fp64 its walk for sampling
+// "cells".
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
 #define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};
@@ -118,5 +119,11 @@ struct DVR_STRUCT : kernel_base {
   }
 };
 #undef DVR_STRUCT
+#ifdef DVR_ISA_fp64
+#define DVR_STRUCT DVR_CELLS
+#include "framework/kernel/cpu/walker_variant.h"
+#undef DVR_STRUCT
+#endif
+#undef DVR_CELLS
 #undef DVR_VOXEL
 #undef DVR_VOXEL_ELEMENT

@@ -1,17 +1,39 @@
 // The walking sampler module: segments end where the kernel's walk finds the next face (not guarded). The contract of
-// walk_state, walk_start, walk_next and walk_gradient stands in framework/kernel/walk.glsl.
-struct Walker : kernel_base {
+// walk_state, walk_start, walk_next and walk_gradient stands in framework/kernel/walk.glsl. With DVR_VOXEL the walk is
+// that of sampling "cells" over a positional sampler, which also shades: it knows the ray in the world.
+struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
+#ifdef DVR_VOXEL
+#define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};
+#endif
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
-#include DVR_KERNEL_FILE
-  // clang-format on
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)
+#ifdef DVR_VOXEL
+  vec3r walk_world_o, walk_world_d;
+  real walk_inv_L;
+#include "framework/kernel/volume.kernel"
+#include "framework/kernel/shading.kernel"
+#include DVR_KERNEL_FILE
+#include "framework/kernel/cells.kernel"
+#undef VOXELS
+#else
+#include DVR_KERNEL_FILE
+#endif
+  // clang-format on
+
+  KFN void see(const ray_packet* p) {
+#ifdef DVR_VOXEL
+    walk_world_o = load3(p->world_o);
+    walk_world_d = load3(p->world_d);
+    walk_inv_L = rcp(rmax(load(p->length), R(1e-30)));
+#endif
+  }
 
   KFN void start(ray_packet* p) {
     ray r;
@@ -30,6 +52,7 @@ struct Walker : kernel_base {
     store(p->skipped, I(0));
     store(p->length, select(hit, L, R(0.0f)));
     store(p->offset, R(0.0f));
+    see(p);
     walk_start(o, r.grid_d, select(hit, L, R(0.0f)), *static_cast<walk_state*>(p->walk));
   }
 
@@ -42,6 +65,7 @@ struct Walker : kernel_base {
     const real L = load(p->length);
     const vec3r o = load3(p->grid_o), d = load3(p->grid_d);
     const bool ends = frame_samples_ends != 0;
+    see(p);
     walk_state w = *static_cast<walk_state*>(p->walk);
     int k = 0;
     for (; k < DVR_CHUNK && any_lane(i + I(k) < n); ++k) {

@@ -7,6 +7,7 @@ using namespace dvrlab;
 
 class Formula : public SamplerPlugin {
  public:
+  AlongRay along_ray() const override { return AlongRay::formula; }
   KernelUnit bind(const Field& field) const override {
     const auto* formula = dynamic_cast<const FormulaField*>(&field);
     if (formula == nullptr) throw InputError("sampler formula: " + field.source + " is no formula");
