@@ -237,7 +237,7 @@ std::vector<SectionType> declare() {
        "Segments on which the value is linear to a tolerance, cell by cell; for references (precision fp64).",
        {{"tolerance", number, "range of the data", "1e-6", "[1e-12,1]",
          "How far the value may be from linear on a segment, and the light factors (absolute) where it is shaded.",
-         pixels, R"({"precision":"fp64"})", "0.01"},
+         pixels, R"({"precision":"fp64"})", "0.05"},
         {"termination", number, "", "1e-4", "[0,1)", "A ray ends when its largest transmittance is at most this.",
          pixels, R"({"precision":"fp64"})", "0.5"}}},
       {"image",

@@ -53,6 +53,7 @@ json needed(const std::string& section, const std::string& type) {
                              {"camera.ray", {{"origin", {-2, 0.1, 0.2}}, {"direction", {1, 0.1, 0}}}},
                              {"lights.directional", {{"direction", {1, 0.3, 0.5}}}},
                              {"lights.point", {{"position", {3, -2, 1}}}},
+                             {"sampling.cells", {{"tolerance", 1e-3}}},
                              {"clip.", {{"normal", {0, 0.3, 1}}, {"offset", 0.3}}}};
   return table.value(section + "." + type, json::object());
 }

@@ -182,8 +182,8 @@ TEST(Procedural, FormulaFieldCarriesTheLayout) {
   EXPECT_EQ(node[6], -1.2f);
   const auto* node64 = static_cast<const double*>(field->buffers[0].data64.get());
   ASSERT_NE(node64, nullptr);
-  EXPECT_EQ(node64[2], 0.5);
-  EXPECT_EQ(node64[6], -1.2);
+  EXPECT_DOUBLE_EQ(node64[2], 0.5);
+  EXPECT_DOUBLE_EQ(node64[6], -1.2);
 }
 
 TEST(Procedural, TangleAndSphereMeetTheirDefinitions) {

@@ -78,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, Stated, testing::Values("cpu", "vulkan", "ope
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Fp64, TheImageInDoubleIsStatedAndTaken) {
-  constexpr double side = 1024, bytes = side * side * 6 * (sizeof(float) + sizeof(double));
+  constexpr int side = 1024;
+  constexpr double bytes = 6.0 * side * side * (sizeof(float) + sizeof(double));
   CaseRenderer renderer(registry());
   const PlannedCase c =
       case_of(16, {{"type", "cpu"}},
