@@ -59,7 +59,7 @@ void frame(Contender& c, const Scene& scene, bool counts) {
   try {
     if (!c.session) {
       c.session = open_backend(c.backend);
-      c.device = c.session->device();
+      c.device = c.session->device(Precision::strict);
     }
     const FrameCost cost = measure_frame(*c.session, scene.job);
     if (!counts) return;

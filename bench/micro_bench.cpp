@@ -17,7 +17,7 @@ using namespace dvrlab::bench;
 /// The three modules of one instruction set, ready for the march scene.
 struct Modules {
   cpu::Bindings bindings;
-  std::unique_ptr<cpu::ModuleFrame> sampler, estimator, march;
+  std::unique_ptr<cpu::ModuleFrame<float>> sampler, estimator, march;
   int width, columns;
 
   Modules(const FrameJob& job, const std::string& isa) {
@@ -27,7 +27,7 @@ struct Modules {
       const dvr_kernel_module* module = cache.get(folder, name, isa);
       width = module->width;
       columns = module->packet_columns;
-      return std::make_unique<cpu::ModuleFrame>(module, bindings.view(), 0);
+      return std::make_unique<cpu::ModuleFrame<float>>(module, bindings.view(), 0);
     };
     sampler = open(job.sampler.folder, job.sampler.plugin);
     estimator = open(job.estimator.folder, job.estimator.plugin);

@@ -1,7 +1,8 @@
-# Kernel modules: one shared library per instruction set from the same text. Each exports one C function and
+# Kernel modules: one shared library per instruction set from the same text, and one in double (fp64, one lane). Each exports one C function and
 # nothing else (version script), so that no inline function of one instruction set can replace another's.
 # DVRLAB_ROOT holds framework/: the source tree, or the installed headers (dvrlabConfig.cmake).
 set(DVRLAB_ISAS scalar sse4.2 avx2 avx512)
+set(DVRLAB_FLAGS_fp64 "")
 set(DVRLAB_FLAGS_scalar "")
 set(DVRLAB_FLAGS_sse4.2 -msse4.2)
 set(DVRLAB_FLAGS_avx2 -mavx2)
@@ -44,7 +45,7 @@ function(dvrlab_add_kernel_modules kind name kernel out)
       set(walking 1)
     endif()
   endif()
-  foreach(isa ${DVRLAB_ISAS})
+  foreach(isa ${DVRLAB_ISAS} fp64)
     string(REPLACE "." "_" isa_id ${isa})
     set(target dvrlab_${kind}_${name}_${isa_id}${ARG_SUFFIX})
     add_library(${target} MODULE ${DVRLAB_ROOT}/framework/kernel/cpu/${kind}.module.cpp)

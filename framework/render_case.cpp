@@ -39,7 +39,7 @@ bool optional_data_missing(const ResolvedCase& c, std::string& why) {
 double bytes_of(const FrameJob& job) {
   double bytes = 0;
   for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) {
-    for (const Buffer& b : unit->buffers) bytes += static_cast<double>(b.bytes());
+    for (const Buffer& b : unit->buffers) bytes += static_cast<double>(b.bytes() + b.bytes64());
   }
   return bytes;
 }
@@ -92,12 +92,12 @@ void CaseRenderer::say(const std::string& note) {
   if (said_.insert(note).second) log_line("scene", note);
 }
 
-BackendSession& CaseRenderer::session(const ResolvedCase& c) {
+BackendSession& CaseRenderer::session(const ResolvedCase& c, Precision precision) {
   std::unique_ptr<BackendSession>& open = sessions_[c.config["backend"].dump()];
   if (open == nullptr) {
     const Section& b = c.backend;
     open = registry_.get<BackendPlugin>("backend", b.type).open(b.parameters, b.folder);
-    const DeviceInfo info = open->device();
+    const DeviceInfo info = open->device(precision);
     log_line("backend", b.type + ": " + info.device + (info.detail.empty() ? "" : ", " + info.detail));
   }
   return *open;
@@ -109,8 +109,8 @@ MemoryBill CaseRenderer::bill(const ResolvedCase& c) const {
 }
 
 FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseRecord& record) {
-  BackendSession& backend = session(c);
-  record.device = backend.device();
+  BackendSession& backend = session(c, scene.job.precision);
+  record.device = backend.device(scene.job.precision);
   MemoryBill memory = bill(c);
   memory.state("data and tables", bytes_of(scene.job));
   memory.state("backend '" + c.backend.type + "'", static_cast<double>(backend.bytes_needed(scene.job)));

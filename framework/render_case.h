@@ -31,7 +31,7 @@ class CaseRenderer {
   FrameImage render(const ResolvedCase& c, const Scene& scene, CaseRecord& record);
 
  private:
-  BackendSession& session(const ResolvedCase& c);
+  BackendSession& session(const ResolvedCase& c, Precision precision);
   /// Logs what was not said before: cases share their notes.
   void say(const std::string& note);
   /// With the limit of the case, nothing stated yet.

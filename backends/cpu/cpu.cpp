@@ -10,8 +10,8 @@ using namespace dvrlab;
 
 const Parameter parameters[] = {
     {"isa", ParameterType::choice, "", "\"auto\"", "auto|scalar|sse4.2|avx2|avx512",
-     "Instruction set of the kernel modules; auto takes the widest that the processor has.", Affects::speed, "",
-     "\"scalar\""},
+     "Instruction set of the kernel modules; auto takes the widest that the processor has, and the only one in fp64.",
+     Affects::speed, "", "\"scalar\""},
     {"threads", ParameterType::integer, "", "0", "[0,1024]", "Worker threads; 0 takes one per hardware thread.",
      Affects::speed, "", "1"},
     {"tile", ParameterType::integer, "pixel", "16", "[4,1024]", "Side of the square image tiles that threads work on.",
@@ -25,17 +25,20 @@ class CpuSession : public BackendSession {
     options_.threads = static_cast<int>(p.integer("threads"));
     options_.tile = static_cast<int>(p.integer("tile"));
   }
-  DeviceInfo device() const override {
-    return {cpu::processor_name(), "kernel modules " + isa_, "C++ SIMD",
-            "isa " + isa_ + ", " + std::to_string(cpu::thread_count(options_.threads)) + " threads, tile " +
+  DeviceInfo device(Precision precision) const override {
+    const std::string isa = precision == Precision::fp64 ? cpu::fp64_isa : isa_;
+    return {cpu::processor_name(), "kernel modules " + isa, "C++ SIMD",
+            "isa " + isa + ", " + std::to_string(cpu::thread_count(options_.threads)) + " threads, tile " +
                 std::to_string(options_.tile)};
   }
   // The images; modules work in place on the job's buffers.
   std::uint64_t bytes_needed(const FrameJob& job) const override {
-    return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * sizeof(float);
+    const std::uint64_t number = sizeof(float) + (job.precision == Precision::fp64 ? sizeof(double) : 0);
+    return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * number;
   }
   void render(const FrameJob& job, FrameResult& result) override {
-    if (job.fast) throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
+    if (job.precision == Precision::fast)
+      throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
     cpu::render_tiles(job, isa_, march_folder_, modules_, options_, result);
   }
   std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y) override {
@@ -62,7 +65,12 @@ class Cpu : public BackendPlugin {
                   {"threads", std::to_string(cpu::thread_count(0))}};
     return {{d}, "", ""};
   }
-  bool supports_fast() const override { return false; }
+  std::string refuses(Precision precision, const ParameterSet& p) const override {
+    if (precision == Precision::fast) return "has no \"fast\" arithmetic; use \"strict\"";
+    if (precision == Precision::fp64 && p.text("isa") != "auto")
+      return "has one set of kernel modules in \"fp64\", for every processor; leave backend.isa at \"auto\"";
+    return "";
+  }
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string& folder) const override {
     return std::make_unique<CpuSession>(p, folder);
   }
@@ -71,4 +79,4 @@ class Cpu : public BackendPlugin {
 }  // namespace
 
 DVRLAB_PLUGIN("backend", "cpu", "1.0", Cpu, parameters,
-              "SIMD kernel modules (scalar, SSE4.2, AVX2, AVX-512) over tiles with oneTBB", "")
+              "SIMD kernel modules (scalar, SSE4.2, AVX2, AVX-512; fp64 for truth) over tiles with oneTBB", "")

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
@@ -62,29 +63,52 @@ void Bindings::add(const KernelUnit& unit) {
     dvr_uniform c{};
     c.name = u.name.c_str();
     c.type = u.type == Uniform::Type::f32 ? DVR_F32 : u.type == Uniform::Type::i32 ? DVR_I32 : DVR_VEC4;
-    for (std::size_t k = 0; k < 4; ++k) c.f[k] = u.f[k];
+    std::copy(u.f.begin(), u.f.end(), c.f);
     c.i = u.i;
     uniforms_.push_back(c);
   }
   for (const Buffer& b : unit.buffers)
-    buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count});
+    buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count, b.data64.get()});
 }
 
 dvr_bindings Bindings::view() const {
   return {uniforms_.data(), static_cast<int>(uniforms_.size()), buffers_.data(), static_cast<int>(buffers_.size())};
 }
 
-void ModuleFrame::Free::operator()(void* p) const { std::free(p); }
+namespace {
+/// True where `name` is only missing because it has no fp64 values.
+bool lacks_fp64(const dvr_bindings& bindings, const std::string& name) {
+  return std::any_of(bindings.buffers, bindings.buffers + bindings.buffer_count, [&](const dvr_buffer& b) {
+    const bool numbers = b.element == DVR_ELEMENT_F32 || b.element == DVR_ELEMENT_VEC4;
+    return numbers && name == b.name && b.data64 == nullptr;
+  });
+}
+}  // namespace
 
-ModuleFrame::ModuleFrame(const dvr_kernel_module* module, const dvr_bindings& bindings, int features) {
+template <class Real>
+void ModuleFrame<Real>::Free::operator()(void* p) const {
+  std::free(p);
+}
+
+template <class Real>
+ModuleFrame<Real>::ModuleFrame(const dvr_kernel_module* module, const dvr_bindings& bindings, int features) {
+  const auto init = module->*ScalarAbi<Real>::init;
+  const std::string kernel = std::string("backend cpu: the kernel of ") + module->kind + " " + module->name;
+  if (init == nullptr)
+    throw std::runtime_error(kernel + " was built in another precision than its file's name says (build it again)");
   const std::size_t align = module->frame_align < 64 ? 64 : module->frame_align;
   const std::size_t bytes = (module->frame_bytes + align - 1) / align * align;
   state_.reset(std::aligned_alloc(align, bytes));
   if (!state_) throw std::bad_alloc();
   char missing[128] = "";
-  if (module->init(state_.get(), &bindings, features, &calls_, missing) != 0)
-    throw InputError(std::string("backend cpu: the kernel of ") + module->kind + " " + module->name + " reads \"" +
-                     missing + "\", which the job does not provide (or with another type)");
+  if (init(state_.get(), &bindings, features, &calls_, missing) == 0) return;
+  if (std::is_same_v<Real, double> && lacks_fp64(bindings, missing))
+    throw InputError("precision: " + kernel.substr(kernel.find("the kernel")) + " reads \"" + missing +
+                     "\", which has fp32 values only; use \"strict\", or another " + module->kind);
+  throw InputError(kernel + " reads \"" + missing + "\", which the job does not provide (or with another type)");
 }
+
+template class ModuleFrame<float>;
+template class ModuleFrame<double>;
 
 }  // namespace dvrlab::cpu

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/interfaces/kernel_module.h"
+#include "backends/cpu/scalar_abi.h"
 #include "framework/interfaces/kernel_unit.h"
 
 namespace dvrlab::cpu {
@@ -22,6 +22,9 @@ class ModuleCache {
   std::vector<std::pair<std::string, const dvr_kernel_module*>> modules_;
 };
 
+/// The isa of the modules of precision fp64: one lane in double, for every processor.
+inline constexpr const char* fp64_isa = "fp64";
+
 /// The uniforms and buffers of a job as the modules' C structures. Refers to the job's memory.
 class Bindings {
  public:
@@ -33,20 +36,22 @@ class Bindings {
   std::vector<dvr_buffer> buffers_;
 };
 
-/// A module's state for one frame.
+/// A module's state for one frame, in float or double.
+template <class Real>
 class ModuleFrame {
  public:
-  /// Throws InputError naming the uniform or buffer that the kernel reads and the job lacks.
+  /// Throws InputError naming the uniform or buffer that the kernel reads and the job lacks, or a table that lacks the
+  /// fp64 values that a kernel in fp64 reads.
   ModuleFrame(const dvr_kernel_module* module, const dvr_bindings& bindings, int features);
   const void* state() const { return state_.get(); }
-  const dvr_calls& calls() const { return calls_; }
+  const typename ScalarAbi<Real>::calls& calls() const { return calls_; }
 
  private:
   struct Free {
     void operator()(void* p) const;
   };
   std::unique_ptr<void, Free> state_;
-  dvr_calls calls_{};
+  typename ScalarAbi<Real>::calls calls_{};
 };
 
 }  // namespace dvrlab::cpu

@@ -5,14 +5,15 @@
 
 namespace dvrlab::cpu {
 
-std::vector<ProbeSegment> probe_ray(const FrameJob& job, const std::string& isa, const std::string& march_folder,
-                                    ModuleCache& modules, int x, int y) {
-  const FrameModules m(job, isa, march_folder, modules);
+namespace {
+
+template <class Real>
+std::vector<ProbeSegment> probe_with(const FrameModules<Real>& m, const FrameJob& job, int x, int y) {
   const KeepDenormals keep;
-  const WalkMemory walk(m);
-  dvr_packet packet{};
+  const WalkMemory walk(m.packet_bytes);
+  typename ScalarAbi<Real>::packet packet{};
   packet.walk = walk.get();
-  dvr_chunk chunk{};
+  typename ScalarAbi<Real>::chunk chunk{};
   std::vector<ProbeSegment> segments;
   // Lane 0 of a packet that starts at the pixel.
   m.march.calls().march.begin(m.march.state(), x, y, &packet);
@@ -23,12 +24,12 @@ std::vector<ProbeSegment> probe_ray(const FrameJob& job, const std::string& isa,
     m.estimator.calls().estimator.integrate(m.estimator.state(), &packet, &chunk);
     // The compositor takes one row at a time, so that the ray's state behind each segment can be read.
     for (int k = 0; k < rows && packet.terminated[0] == 0; ++k) {
-      dvr_chunk one = chunk;
+      typename ScalarAbi<Real>::chunk one = chunk;
       for (int r = 0; r < rows; ++r)
-        if (r != k) one.len[r * m.width] = 0.0f;
+        if (r != k) one.len[r * m.width] = 0;
       m.march.calls().march.composite(m.march.state(), &packet, &one);
       const int a = k * m.width;
-      if (!(chunk.len[a] > 0.0f)) continue;
+      if (!(chunk.len[a] > 0)) continue;
       ProbeSegment p;
       p.index = first + k;
       p.s = chunk.s[a + m.width];
@@ -44,6 +45,15 @@ std::vector<ProbeSegment> probe_ray(const FrameJob& job, const std::string& isa,
     }
   }
   return segments;
+}
+
+}  // namespace
+
+std::vector<ProbeSegment> probe_ray(const FrameJob& job, const std::string& isa, const std::string& march_folder,
+                                    ModuleCache& modules, int x, int y) {
+  if (job.precision == Precision::fp64)
+    return probe_with(FrameModules<double>(job, fp64_isa, march_folder, modules), job, x, y);
+  return probe_with(FrameModules<float>(job, isa, march_folder, modules), job, x, y);
 }
 
 }  // namespace dvrlab::cpu

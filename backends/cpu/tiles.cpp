@@ -27,15 +27,17 @@ int features_of(const FrameJob& job) { return (job.rgb ? DVR_FEATURE_RGB : 0) | 
 
 }  // namespace
 
-FrameModules::FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder,
-                           ModuleCache& modules)
+template <class Real>
+FrameModules<Real>::FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder,
+                                 ModuleCache& modules)
     : FrameModules(job, modules.get(job.sampler.folder, job.sampler.plugin, isa),
                    modules.get(job.estimator.folder, job.estimator.plugin, isa),
                    modules.get(march_folder, "march", isa), Bindings()) {}
 
-FrameModules::FrameModules(const FrameJob& job, const dvr_kernel_module* sampler_module,
-                           const dvr_kernel_module* estimator_module, const dvr_kernel_module* march_module,
-                           Bindings bindings)
+template <class Real>
+FrameModules<Real>::FrameModules(const FrameJob& job, const dvr_kernel_module* sampler_module,
+                                 const dvr_kernel_module* estimator_module, const dvr_kernel_module* march_module,
+                                 Bindings bindings)
     : sampler(sampler_module, view_of(job, bindings), features_of(job)),
       estimator(estimator_module, bindings.view(), features_of(job)),
       march(march_module, bindings.view(), features_of(job)),
@@ -43,8 +45,10 @@ FrameModules::FrameModules(const FrameJob& job, const dvr_kernel_module* sampler
       columns(march_module->packet_columns),
       packet_bytes(sampler_module->packet_bytes) {}
 
-WalkMemory::WalkMemory(const FrameModules& modules)
-    : memory_(modules.packet_bytes == 0 ? nullptr : ::operator new(modules.packet_bytes, std::align_val_t(64))) {}
+template struct FrameModules<float>;
+template struct FrameModules<double>;
+
+WalkMemory::WalkMemory(unsigned bytes) : memory_(bytes == 0 ? nullptr : ::operator new(bytes, std::align_val_t(64))) {}
 WalkMemory::~WalkMemory() { ::operator delete(memory_, std::align_val_t(64)); }
 
 namespace {
@@ -53,8 +57,21 @@ struct Rect {
   int x0, y0, x1, y1;
 };
 
-void render_packet(const FrameModules& m, int x, int y, dvr_packet& packet, dvr_chunk& chunk, const FrameJob& job,
-                   FrameResult& result, FrameCounters& counters) {
+/// Where a module's numbers go: the image, and its double when they are double.
+void put(std::size_t at, float color, float trans, FrameImage& image) {
+  image.color[at] = color;
+  image.trans[at] = trans;
+}
+void put(std::size_t at, double color, double trans, FrameImage& image) {
+  put(at, static_cast<float>(color), static_cast<float>(trans), image);
+  image.color64[at] = color;
+  image.trans64[at] = trans;
+}
+
+template <class Real>
+void render_packet(const FrameModules<Real>& m, int x, int y, typename ScalarAbi<Real>::packet& packet,
+                   typename ScalarAbi<Real>::chunk& chunk, const FrameJob& job, FrameResult& result,
+                   FrameCounters& counters) {
   m.march.calls().march.begin(m.march.state(), x, y, &packet);
   m.sampler.calls().sampler.start(m.sampler.state(), &packet);
   for (int l = 0; l < m.width; ++l)  // lanes beside the image have no ray
@@ -67,23 +84,21 @@ void render_packet(const FrameModules& m, int x, int y, dvr_packet& packet, dvr_
   for (int l = 0; l < m.width; ++l) {
     if (packet.x[l] >= job.width || packet.y[l] >= job.height) continue;
     const std::size_t pixel = 3 * (std::size_t(packet.y[l]) * std::size_t(job.width) + std::size_t(packet.x[l]));
-    for (std::size_t c = 0; c < 3; ++c) {
-      result.image.color[pixel + c] = packet.color[c][l];
-      result.image.trans[pixel + c] = packet.trans[c][l];
-    }
+    for (std::size_t c = 0; c < 3; ++c) put(pixel + c, packet.color[c][l], packet.trans[c][l], result.image);
     counters.samples += unsigned(packet.samples[l]);
     counters.skipped += unsigned(packet.skipped[l]);
     counters.terminated += unsigned(packet.terminated[l]);
   }
 }
 
-void render_tile(const FrameModules& m, const Rect& r, const FrameJob& job, FrameResult& result,
+template <class Real>
+void render_tile(const FrameModules<Real>& m, const Rect& r, const FrameJob& job, FrameResult& result,
                  FrameCounters& counters) {
   const KeepDenormals keep;
-  const WalkMemory walk(m);
-  dvr_packet packet{};
+  const WalkMemory walk(m.packet_bytes);
+  typename ScalarAbi<Real>::packet packet{};
   packet.walk = walk.get();
-  dvr_chunk chunk{};
+  typename ScalarAbi<Real>::chunk chunk{};
   const int rows = m.width / m.columns;
   for (int y = r.y0; y < r.y1; y += rows)
     for (int x = r.x0; x < r.x1; x += m.columns) render_packet(m, x, y, packet, chunk, job, result, counters);
@@ -95,16 +110,20 @@ double cpu_seconds() {
   return double(u.ru_utime.tv_sec + u.ru_stime.tv_sec) + 1e-6 * double(u.ru_utime.tv_usec + u.ru_stime.tv_usec);
 }
 
-}  // namespace
-
-void render_tiles(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules,
-                  const TileOptions& options, FrameResult& result) {
-  const FrameModules m(job, isa, march_folder, modules);
-  result.image.width = job.width;
-  result.image.height = job.height;
+void make_image(const FrameJob& job, FrameImage& image) {
   const std::size_t values = 3 * std::size_t(job.width) * std::size_t(job.height);
-  result.image.color.assign(values, 0.0f);
-  result.image.trans.assign(values, 0.0f);
+  const std::size_t values64 = job.precision == Precision::fp64 ? values : 0;
+  image.width = job.width;
+  image.height = job.height;
+  image.color.assign(values, 0.0f);
+  image.trans.assign(values, 0.0f);
+  image.color64.assign(values64, 0.0);
+  image.trans64.assign(values64, 0.0);
+}
+
+template <class Real>
+void render_with(const FrameModules<Real>& m, const FrameJob& job, const TileOptions& options, FrameResult& result) {
+  make_image(job, result.image);
 
   // Tiles are multiples of 4 pixels, so that no packet lies in two.
   const int tile = std::max(4, options.tile / 4 * 4);
@@ -135,6 +154,16 @@ void render_tiles(const FrameJob& job, const std::string& isa, const std::string
     result.counters.skipped += c.skipped;
     result.counters.terminated += c.terminated;
   }
+}
+
+}  // namespace
+
+void render_tiles(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules,
+                  const TileOptions& options, FrameResult& result) {
+  if (job.precision == Precision::fp64)
+    render_with(FrameModules<double>(job, fp64_isa, march_folder, modules), job, options, result);
+  else
+    render_with(FrameModules<float>(job, isa, march_folder, modules), job, options, result);
 }
 
 }  // namespace dvrlab::cpu

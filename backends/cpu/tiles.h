@@ -13,9 +13,10 @@ struct TileOptions {
   int tile = 16;    // pixels
 };
 
-/// The modules of a job with their state for this frame.
+/// The modules of a job with their state for this frame; Real is double in precision fp64.
+template <class Real>
 struct FrameModules {
-  ModuleFrame sampler, estimator, march;
+  ModuleFrame<Real> sampler, estimator, march;
   int width, columns;     // lanes of a packet, pixels of a packet in x
   unsigned packet_bytes;  // of dvr_packet::walk
   FrameModules(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules);
@@ -25,10 +26,10 @@ struct FrameModules {
                const dvr_kernel_module* march_module, Bindings bindings);
 };
 
-/// The sampler's own memory of one packet.
+/// The sampler's own memory of one packet (FrameModules::packet_bytes).
 class WalkMemory {
  public:
-  explicit WalkMemory(const FrameModules& modules);
+  explicit WalkMemory(unsigned bytes);
   ~WalkMemory();
   WalkMemory(const WalkMemory&) = delete;
   WalkMemory& operator=(const WalkMemory&) = delete;
@@ -38,6 +39,7 @@ class WalkMemory {
   void* memory_;
 };
 
+/// `isa` chooses among the modules in fp32; precision fp64 has its own.
 void render_tiles(const FrameJob& job, const std::string& isa, const std::string& march_folder, ModuleCache& modules,
                   const TileOptions& options, FrameResult& result);
 

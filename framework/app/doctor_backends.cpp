@@ -17,7 +17,7 @@ BackendReport report_of_open(const BackendPlugin& backend, const PluginEntryInfo
   const ParameterSet parameters =
       resolve_keys({}, "backend", {{d.parameters, d.parameters + d.parameter_count}, {}, {}}, problems, defaults);
   if (!problems.empty()) return {{}, "needs parameters that have no default", ""};
-  const DeviceInfo info = backend.open(parameters, entry.folder)->device();
+  const DeviceInfo info = backend.open(parameters, entry.folder)->device(Precision::strict);
   return {{{info.device, info.driver, info.api, false, {{"detail", info.detail}}}}, "", ""};
 }
 

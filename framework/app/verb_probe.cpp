@@ -12,11 +12,12 @@
 namespace dvrlab {
 namespace {
 
-std::string number(double x) { return number_text(x, 9); }
-
-std::string triple(const std::array<double, 3>& v) { return number(v[0]) + " " + number(v[1]) + " " + number(v[2]); }
-
-std::string table_of(const std::vector<ProbeSegment>& segments, const Field& field) {
+std::string table_of(const std::vector<ProbeSegment>& segments, const Field& field, Precision precision) {
+  const int digits = precision == Precision::fp64 ? 17 : 9;  // what it takes to tell two of them apart
+  const auto number = [&](double x) { return number_text(x, digits); };
+  const auto triple = [&](const std::array<double, 3>& v) {
+    return number(v[0]) + " " + number(v[1]) + " " + number(v[2]);
+  };
   std::vector<std::vector<std::string>> rows = {{"segment", "arc length", "length", "value", "radiance r g b",
                                                  "transmittance r g b", "ray: radiance so far",
                                                  "ray: transmittance so far"}};
@@ -61,9 +62,10 @@ int probe_verb(const Options& o) {
   record.plan = &planned;
   const Scene& scene = renderer.scene(planned.resolved, record);
   const std::vector<ProbeSegment> segments = probe_ray(scene, registry, o.pixel.at(0), o.pixel.at(1));
-  std::fputs(
-      o.json ? (pretty_json(json_of(segments, *scene.field)) + "\n").c_str() : table_of(segments, *scene.field).c_str(),
-      stdout);
+  std::fputs((o.json ? pretty_json(json_of(segments, *scene.field)) + "\n"
+                     : table_of(segments, *scene.field, scene.job.precision))
+                 .c_str(),
+             stdout);
   if (segments.empty())
     std::fprintf(stderr, "backend: the ray of pixel %d,%d has no segment: it misses the data, or all of it is empty\n",
                  o.pixel[0], o.pixel[1]);

@@ -19,7 +19,7 @@ Uniform Uniform::real(std::string name, double value) {
   Uniform u;
   u.name = std::move(name);
   u.type = Type::f32;
-  u.f[0] = static_cast<float>(value);
+  u.f[0] = value;
   return u;
 }
 
@@ -41,7 +41,7 @@ Uniform Uniform::vector(std::string name, double x, double y, double z, double w
   Uniform u;
   u.name = std::move(name);
   u.type = Type::vec4;
-  u.f = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(w)};
+  u.f = {x, y, z, w};
   return u;
 }
 

@@ -14,13 +14,17 @@
 
 namespace dvrlab {
 
+/// The key `precision`, in the order of its words. strict: fp32, same bits everywhere. fast: fp32, contraction is
+/// allowed. fp64: the same kernels in double (docs/adr/0006).
+enum class Precision { strict, fast, fp64 };
+
 /// One frame, fully resolved. The kernel's uniforms lie in the units.
 struct FrameJob {
   int width = 0, height = 0;
   bool rgb = false;   // extinction differs between channels
   bool full = false;  // needs more than extinction and unshaded source
-  bool fast = false;  // precision "fast": contraction is allowed
-  KernelUnit frame;   // camera, sampling, lights, medium; kernel texts of framework/kernel
+  Precision precision = Precision::strict;
+  KernelUnit frame;  // camera, sampling, lights, medium; kernel texts of framework/kernel
   KernelUnit sampler;
   KernelUnit estimator;
   std::string kernel_folder;  // framework/kernel
@@ -28,11 +32,12 @@ struct FrameJob {
   std::uint64_t gpu_buffer_limit = 0;
 };
 
-/// Row 0 is the top row. Seven values per pixel.
+/// Row 0 is the top row. A frame in fp64 has its numbers in double too, and `color`, `trans` are those rounded.
 struct FrameImage {
   int width = 0, height = 0;
-  std::vector<float> color;  // 3 per pixel: radiance including T * background
-  std::vector<float> trans;  // 3 per pixel: transmittance
+  std::vector<float> color;                        // 3 per pixel: radiance including T * background
+  std::vector<float> trans;                        // 3 per pixel: transmittance
+  std::vector<double> color64 = {}, trans64 = {};  // the same in fp64; empty for other precisions
 };
 
 struct FrameCounters {
@@ -73,7 +78,8 @@ struct ProbeSegment {
 class BackendSession {
  public:
   virtual ~BackendSession() = default;
-  virtual DeviceInfo device() const = 0;
+  /// What runs frames of this precision.
+  virtual DeviceInfo device(Precision precision) const = 0;
   /// Bytes on top of the job's buffers that render() will allocate.
   virtual std::uint64_t bytes_needed(const FrameJob& job) const = 0;
   /// Uploads and compiles what changed since the last call, renders, blocks until done.
@@ -103,8 +109,13 @@ class BackendPlugin : public Plugin {
   /// Devices, drivers and limits. Never throws for a missing library, driver or device: that is `problem`. A backend
   /// that reports nothing is tried by `open`.
   virtual BackendReport report() const { return {}; }
-  /// True if frames may ask for `precision: "fast"`.
-  virtual bool supports_fast() const { return true; }
+  /// Why frames of this precision cannot be rendered with these parameters, as a clause behind the backend's name that
+  /// says what would be right; "" when they can.
+  virtual std::string refuses(Precision precision, const ParameterSet& /*parameters*/) const {
+    if (precision != Precision::fp64) return "";
+    return "has no \"fp64\" arithmetic: kernels are compiled in double for the cpu only; set backend.type to \"cpu\", "
+           "or use \"strict\"";
+  }
   /// Throws NotSupported with the reason (no device, no driver, instruction set missing).
   virtual std::unique_ptr<BackendSession> open(const ParameterSet& parameters,
                                                const std::string& plugin_folder) const = 0;

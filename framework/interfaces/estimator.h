@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "framework/interfaces/backend.h"
 #include "framework/interfaces/kernel_unit.h"
 #include "framework/interfaces/medium.h"
 #include "framework/interfaces/plugin.h"
@@ -34,10 +35,11 @@ struct EstimatorDeclaration {
 struct EstimatorContext {
   const Medium* medium;
   double value_min, value_max;
-  double step;         // world units
-  bool full;           // the kernel's variant has light factors; without them every source is lit by 1
-  bool lit_particles;  // m differs from 1
-  std::string folder;  // of the plugin: where its own libraries lie
+  double step;          // world units
+  bool full;            // the kernel's variant has light factors; without them every source is lit by 1
+  bool lit_particles;   // m differs from 1
+  Precision precision;  // of the kernel
+  std::string folder;   // of the plugin: where its own libraries lie
 };
 
 class EstimatorPlugin : public Plugin {

@@ -54,7 +54,7 @@ struct GridField : Field {
   mutable std::shared_ptr<const void> macrocells;  // the scene stage's value ranges, made at the first use
 };
 
-/// A field that is evaluated by its formula at every sample; value and gradient are exact up to fp32.
+/// A field that is evaluated by its formula at every sample; value and gradient are exact up to rounding.
 struct FormulaField : Field {
   std::vector<Uniform> uniforms;  // for the formula sampler
   std::vector<Buffer> buffers;
@@ -87,9 +87,15 @@ class DataPlugin : public Plugin {
   virtual std::uint64_t bytes_needed(const ParameterSet& parameters, const LoadContext& context) const = 0;
 };
 
+/// What sampling "cells" finds along a ray (framework/kernel/cells.kernel). lattice: between whole sampler coordinates
+/// the value is a cubic of the arc length, continuous across them. formula: continuous, with nothing known of its
+/// shape. none: neither (a value that jumps, or a walk of its own): "cells" is refused.
+enum class AlongRay { none, lattice, formula };
+
 /// A sampler: binds a field to its kernel.
 class SamplerPlugin : public Plugin {
  public:
+  virtual AlongRay along_ray() const { return AlongRay::none; }
   /// Bytes that bind() will allocate at the most; what it shares with the field does not count.
   virtual std::uint64_t bytes_needed(const Field& /*field*/) const { return 0; }
   /// Uniforms and buffers of the kernel for this field. `folder` is the plugin's folder.

@@ -17,7 +17,7 @@ struct Uniform {
   enum class Type { f32, i32, vec4 };
   std::string name;
   Type type = Type::f32;
-  std::array<float, 4> f{};
+  std::array<double, 4> f{};  // kernels in fp32 read them rounded, those in fp64 as they are
   int i = 0;
   /// Compiled into a GPU's shader as a literal, so that unused code disappears there.
   bool constant = false;
@@ -37,7 +37,11 @@ struct Buffer {
   Element element = Element::f32;
   std::shared_ptr<const void> data;
   std::uint64_t count = 0;  // elements; 0: never read, and not bound
-  std::uint64_t bytes() const { return count * bytes_of(element); }
+  /// The same numbers in double, for kernels in fp64: needed where numbers are computed (vec4, and f32 volumes of
+  /// stages); a sampler's voxels are read in their own type. A kernel in fp64 refuses a table that has none.
+  std::shared_ptr<const void> data64 = nullptr;
+  std::uint64_t bytes() const { return count * bytes_of(element); }  // of `data`
+  std::uint64_t bytes64() const { return data64 ? 2 * bytes() : 0; }
 };
 
 /// One kernel with everything that it reads.

@@ -17,8 +17,8 @@ namespace dvrlab {
 std::vector<Measure> measure(const ResolvedCase& c, const Registry& registry, const FrameImage& image,
                              const FrameImage& reference, const std::string& against);
 
-/// Compares every float of colour and transmittance. Images of different sizes differ in every float. A NaN differs
-/// by infinity unless both have the same bits.
+/// Compares every number of colour and transmittance: the doubles where both images have them, else the floats. Images
+/// of different sizes differ in every number. A NaN differs by infinity unless both have the same bits.
 VariantCheck compare_bits(const FrameImage& image, const FrameImage& first);
 
 /// Measures the cases of an experiment in their running order and keeps the images that later ones are compared
@@ -27,7 +27,7 @@ class Measurer {
  public:
   Measurer(const Experiment& experiment, const Registry& registry);
   /// Metrics against every reference and against the first variant; the verdict "fail" for a variant that differs
-  /// in precision strict.
+  /// in any precision but fast.
   void measure_case(std::size_t index, FrameImage image, CaseRecord& record);
   /// The case is through, with or without an image: forgets what no later case needs.
   void done(std::size_t index);

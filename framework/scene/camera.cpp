@@ -118,14 +118,14 @@ void add_camera(const Section& camera, const Field& field, int width, int height
 
 void add_clipping(const std::vector<Section>& planes, const Field& field, KernelUnit& unit) {
   const Frame frame(field);
-  std::vector<float> plane;
+  std::vector<double> plane;
   for (const Section& s : planes) {
     const ParameterSet& p = s.parameters;
     const Vector3 n = unit_vector(p.vector3("normal"), p.path_of("normal") + ": is 0; give a direction");
     // The offset is measured from the frame's origin; the kernel's coordinates start at the centre.
     const double origin = p.text("frame") == "data" ? 0.0 : dot(n, frame.centre());
     const double offset = p.number("offset") * frame.unit(p) - origin;
-    plane.insert(plane.end(), {float(n[0]), float(n[1]), float(n[2]), float(offset)});
+    plane.insert(plane.end(), {n[0], n[1], n[2], offset});
   }
   unit.uniforms.push_back(Uniform::constant_integer("frame_planes", int(planes.size())));
   unit.buffers.push_back(vec4_buffer("frame_plane", std::move(plane)));

@@ -10,13 +10,13 @@
 namespace dvrlab {
 namespace {
 
-void append(std::vector<float>& values, double x, double y, double z, double w) {
-  for (double a : {x, y, z, w}) values.push_back(static_cast<float>(a));
+void append(std::vector<double>& values, double x, double y, double z, double w) {
+  values.insert(values.end(), {x, y, z, w});
 }
-void append(std::vector<float>& values, const Vector3& a) { append(values, a[0], a[1], a[2], 0); }
+void append(std::vector<double>& values, const Vector3& a) { append(values, a[0], a[1], a[2], 0); }
 
-std::vector<float> dirac_rows(const std::vector<Dirac>& diracs) {
-  std::vector<float> rows;
+std::vector<double> dirac_rows(const std::vector<Dirac>& diracs) {
+  std::vector<double> rows;
   for (const Dirac& d : diracs) {
     Vector3 alpha, color, depth_color;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -41,8 +41,8 @@ double inverse_width(const OpaqueRange& o) {
   return width > 0 && width < 1e30 ? 1.0 / width : 0.0;
 }
 
-std::vector<float> opaque_rows(const std::vector<OpaqueRange>& ranges, bool fold_shaded) {
-  std::vector<float> rows;
+std::vector<double> opaque_rows(const std::vector<OpaqueRange>& ranges, bool fold_shaded) {
+  std::vector<double> rows;
   for (const OpaqueRange& o : ranges) {
     std::array<Vector3, 2> P = o.P;
     for (std::size_t e = 0; e < 2 && fold_shaded; ++e)
@@ -67,8 +67,8 @@ Curve pulse(const Dirac& d, double width) {
 void add_discrete_surfaces(const Medium& medium, bool fold_shaded, KernelUnit& unit) {
   unit.uniforms.push_back(Uniform::constant_integer("medium_diracs", static_cast<int>(medium.dirac.size())));
   unit.uniforms.push_back(Uniform::constant_integer("medium_opaques", static_cast<int>(medium.opaque.size())));
-  std::vector<float> rows = dirac_rows(medium.dirac);
-  const std::vector<float> ranges = opaque_rows(medium.opaque, fold_shaded);
+  std::vector<double> rows = dirac_rows(medium.dirac);
+  const std::vector<double> ranges = opaque_rows(medium.opaque, fold_shaded);
   rows.insert(rows.end(), ranges.begin(), ranges.end());
   unit.buffers.push_back(vec4_buffer("medium_discrete", std::move(rows)));
 }

@@ -74,12 +74,12 @@ void add_shading(const LocalShading& s, double value_per_stored, KernelUnit& uni
        Uniform::real("frame_gradient_eps2", std::max(eps * eps, 1e-36)),
        Uniform::constant_integer("frame_lights", int(s.light.size())), vec("frame_m0", s.m[0]), vec("frame_m1", s.m[1]),
        vec("frame_k0", s.k[0]), vec("frame_k1", s.k[1]), vec("frame_b0", s.b[0]), vec("frame_b1", s.b[1])});
-  std::vector<float> lights;
+  std::vector<double> lights;
   for (const Light& l : s.light) {
-    for (double x : l.position) lights.push_back(float(x));
-    lights.push_back(float(int(l.type)));
-    for (double x : l.color) lights.push_back(float(x));
-    lights.push_back(0.0f);
+    lights.insert(lights.end(), l.position.begin(), l.position.end());
+    lights.push_back(int(l.type));
+    lights.insert(lights.end(), l.color.begin(), l.color.end());
+    lights.push_back(0.0);
   }
   unit.buffers.push_back(vec4_buffer("frame_light", std::move(lights)));
 }

@@ -31,6 +31,7 @@ std::vector<std::vector<MediumGroup>> bin_groups(const Medium& medium, const Med
 
 void add_means(const Medium& medium, const MediumTableOptions& o, int bins, bool barycentre, KernelUnit& unit) {
   std::vector<float> table;
+  std::vector<double> table64;
   if (bins > 0) {
     const auto groups = bin_groups(medium, o, bins, barycentre);
     std::vector<MediumGroup> sum(groups.front().size());
@@ -39,6 +40,10 @@ void add_means(const Medium& medium, const MediumTableOptions& o, int bins, bool
         for (double x : sum[g]) table.push_back(static_cast<float>(x));
         for (double x : sum[g]) table.push_back(static_cast<float>(x - static_cast<double>(static_cast<float>(x))));
         for (double x : groups[j][g]) table.push_back(static_cast<float>(x));
+        // In double a sum is one number; what rounding took is nothing.
+        table64.insert(table64.end(), sum[g].begin(), sum[g].end());
+        table64.insert(table64.end(), {0, 0, 0, 0});
+        table64.insert(table64.end(), groups[j][g].begin(), groups[j][g].end());
         // What lies below the range is never summed up: sums begin at its end.
         for (std::size_t k = 0; k < 4 && j > 0; ++k) sum[g][k] += groups[j][g][k];
       }
@@ -48,7 +53,7 @@ void add_means(const Medium& medium, const MediumTableOptions& o, int bins, bool
                        {Uniform::real("mean_lo", o.lo), Uniform::real("mean_scale", bins / (o.hi - o.lo)),
                         Uniform::real("mean_last", bins + 1),
                         Uniform::constant_integer("mean_barycentre", barycentre && bins > 0 ? 1 : 0)});
-  unit.buffers.push_back(vec4_buffer("mean_table", std::move(table)));
+  unit.buffers.push_back(vec4_buffer("mean_table", std::move(table), std::move(table64)));
 }
 
 }  // namespace dvrlab

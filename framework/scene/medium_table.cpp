@@ -14,26 +14,29 @@ using Columns = std::array<double, medium_columns>;
 
 double col(const Columns& x, Term t, int c) { return x[std::size_t(column(t, c))]; }
 
-std::vector<float> table_values(const Medium& m, const MediumTableOptions& o, const MediumLayout& layout) {
+Buffer table_of(const Medium& m, const MediumTableOptions& o, const MediumLayout& layout) {
   std::vector<std::vector<MediumGroup>> entry;
   for (int e = 0; e < o.entries; ++e) entry.push_back(layout.groups(m.at(o.lo + (o.hi - o.lo) * e / (o.entries - 1))));
   std::vector<float> r;
+  std::vector<double> r64;
   for (std::size_t e = 0; e < entry.size(); ++e) {
     const auto& next = entry[std::min(e + 1, entry.size() - 1)];
     for (std::size_t g = 0; g < entry[e].size(); ++g) {
       for (double x : entry[e][g]) r.push_back(float(x));
       for (std::size_t k = 0; k < 4; ++k) r.push_back(float(next[g][k]) - float(entry[e][g][k]));
+      r64.insert(r64.end(), entry[e][g].begin(), entry[e][g].end());
+      for (std::size_t k = 0; k < 4; ++k) r64.push_back(next[g][k] - entry[e][g][k]);
     }
   }
-  return r;
+  return vec4_buffer("medium_table", std::move(r), std::move(r64));
 }
 
 void add_nodes(const Medium& m, const MediumLayout& layout, KernelUnit& unit) {
   std::size_t padded = 1;
   while (padded < m.interval.size()) padded *= 2;
-  std::vector<float> node, poly;
+  std::vector<double> node, poly;
   for (const MediumInterval& i : m.interval) {
-    node.insert(node.end(), {float(i.v0), float(1.0 / (i.v1 - i.v0)), 0.0f, 0.0f});
+    node.insert(node.end(), {i.v0, 1.0 / (i.v1 - i.v0), 0.0, 0.0});
     std::array<std::vector<MediumGroup>, 3> power;
     for (std::size_t p = 0; p < 3; ++p) {
       Columns x;
@@ -41,15 +44,14 @@ void add_nodes(const Medium& m, const MediumLayout& layout, KernelUnit& unit) {
       power[p] = layout.groups(x);
     }
     for (std::size_t g = 0; g < power[0].size(); ++g)
-      for (const auto& p : power)
-        for (double x : p[g]) poly.push_back(float(x));
+      for (const auto& p : power) poly.insert(poly.end(), p[g].begin(), p[g].end());
   }
   // The search compares with v0 only: the first interval reaches to the left of every value, padding is out of reach
   // (the outer intervals are constant, so their coordinate does not matter).
   node[0] = std::numeric_limits<float>::lowest();
-  node[1] = 0.0f;
+  node[1] = 0.0;
   for (std::size_t k = m.interval.size(); k < padded; ++k)
-    node.insert(node.end(), {std::numeric_limits<float>::max(), 0.0f, 0.0f, 0.0f});
+    node.insert(node.end(), {std::numeric_limits<float>::max(), 0.0, 0.0, 0.0});
   unit.uniforms.push_back(Uniform::constant_integer("medium_node_step", int(padded / 2)));
   unit.buffers.push_back(vec4_buffer("medium_node", std::move(node)));
   unit.buffers.push_back(vec4_buffer("medium_node_poly", std::move(poly)));
@@ -109,7 +111,7 @@ void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& u
     unit.buffers.push_back(vec4_buffer("medium_table", {}));
     add_nodes(medium, layout, unit);
   } else {
-    unit.buffers.push_back(vec4_buffer("medium_table", table_values(medium, o, layout)));
+    unit.buffers.push_back(table_of(medium, o, layout));
     unit.uniforms.push_back(Uniform::constant_integer("medium_node_step", 0));
     unit.buffers.push_back(vec4_buffer("medium_node", {}));
     unit.buffers.push_back(vec4_buffer("medium_node_poly", {}));

@@ -43,6 +43,8 @@ class OccupiedBins {
   OccupiedBins(const Medium& medium, const MediumTableOptions& options);
   /// True if no value of the closed interval [a, b] contributes, with one bin of margin.
   bool empty(double a, double b) const;
+  /// How many bins before bin b contribute, and two more entries, as medium_shaded_sum has them.
+  const std::vector<int>& sums() const { return sum_; }
 
  private:
   double lo_, scale_;

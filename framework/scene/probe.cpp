@@ -7,7 +7,8 @@
 namespace dvrlab {
 
 std::vector<ProbeSegment> BackendSession::probe(const FrameJob&, int, int) {
-  throw NotSupported("backend " + device().api + ": no probe; probe with backend cpu, which marches the same bits");
+  throw NotSupported("backend " + device(Precision::strict).api +
+                     ": no probe; probe with backend cpu, which marches the same bits");
 }
 
 std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y) {
@@ -16,6 +17,7 @@ std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry
   std::vector<Parameter> declared(cpu.descriptor->parameters,
                                   cpu.descriptor->parameters + cpu.descriptor->parameter_count);
   for (const Parameter& p : declared) values[p.name] = nlohmann::json::parse(p.default_value);
+  // isa stays at its default: precision fp64 has modules of its own, and the others march the same bits.
   const auto session =
       registry.get<BackendPlugin>("backend", "cpu").open(ParameterSet("backend", declared, values), cpu.folder);
   return session->probe(scene.job, x, y);

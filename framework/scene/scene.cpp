@@ -10,6 +10,7 @@
 #include "framework/interfaces/transfer_function.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/camera.h"
+#include "framework/scene/cells.h"
 #include "framework/scene/discrete_surfaces.h"
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
@@ -27,6 +28,8 @@ LoadContext load_context(const ResolvedCase& c) {
 }
 
 std::string field_key(const ResolvedCase& c) { return c.config.at("data").dump() + "|" + c.base_folder; }
+
+Precision precision_of(const ResolvedCase& c) { return static_cast<Precision>(c.top.choice_index("precision")); }
 
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
@@ -95,9 +98,25 @@ MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
   return o;
 }
 
+/// Skipping concerns samples at equal distances only.
+bool skips(const ResolvedCase& c) { return !samples_cells(c) && c.sampling.parameters.boolean("skipping"); }
+
+/// World units. Where segments follow the cells of the data, estimators are told a voxel.
+double step_of(const ResolvedCase& c, const Field& field, std::vector<std::string>& notes) {
+  if (samples_cells(c)) return field.voxel;
+  const ParameterSet& p = c.sampling.parameters;
+  if (p.text("unit") != "voxel") return p.number("step");
+  const double step = p.number("step") * field.voxel;
+  char text[120];
+  std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (smallest spacing %.9g)",
+                p.number("step"), step, field.voxel);
+  notes.emplace_back(text);
+  return step;
+}
+
 void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
   const ParameterSet& p = c.sampling.parameters;
-  const double jitter = p.number("jitter");
+  const double jitter = samples_cells(c) ? 0.0 : p.number("jitter");
   const auto background = c.image.vector3("background");
   const bool linear = c.image.text("space") == "linear";
   const auto decode = [&](double x) { return linear ? display_to_linear(x) : x; };
@@ -118,7 +137,7 @@ constexpr double most_segments = 65535;
 void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame) {
   const auto number = [&](const char* name) {
     for (const Uniform& u : frame.uniforms)
-      if (u.name == name) return double(u.f[0]);
+      if (u.name == name) return u.f[0];
     return 0.0;
   };
   const double diagonal = length(field.to_world.vector(minus(field.hi, field.lo)));
@@ -185,10 +204,11 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
                           .declaration(c.estimator.parameters));
   });
   part([&] {
-    if (c.top.text("precision") == "fast" &&
-        !registry.get<BackendPlugin>("backend", c.backend.type, "backend.type").supports_fast())
-      throw InputError("precision: backend \"" + c.backend.type + "\" has no \"fast\" arithmetic; use \"strict\"");
+    const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")
+                                    .refuses(precision_of(c), c.backend.parameters);
+    if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
   });
+  part([&] { check_cells(c); });
   if (c.illumination.size() > 1)
     problems.add("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
                  "); give one");
@@ -216,10 +236,9 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory) {
   const auto* grid = dynamic_cast<const GridField*>(&field);
   if (grid != nullptr) memory.state("data", static_cast<double>(grid->bytes()));
-  if (grid != nullptr && c.sampling.parameters.boolean("skipping"))
-    memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
-  memory.state("transfer function table",
-               static_cast<double>(c.optical_model.parameters.integer("tf_entries")) * medium_columns * sizeof(float));
+  if (grid != nullptr && skips(c)) memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
+  memory.state("transfer function table", static_cast<double>(c.optical_model.parameters.integer("tf_entries")) *
+                                              medium_columns * (sizeof(float) + sizeof(double)));
   std::vector<std::string> notes;
   const std::string sampler = sampler_of(c, field);
   memory.state("sampler '" + sampler + "'",
@@ -238,14 +257,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   Scene scene;
   scene.field = field;
   scene.notes = field->notes;
-  const ParameterSet& sampling = c.sampling.parameters;
-  scene.step = sampling.number("step") * (sampling.text("unit") == "voxel" ? field->voxel : 1.0);
-  if (sampling.text("unit") == "voxel") {
-    char text[120];
-    std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (smallest spacing %.9g)",
-                  sampling.number("step"), scene.step, field->voxel);
-    scene.notes.emplace_back(text);
-  }
+  scene.step = step_of(c, *field, scene.notes);
 
   const TfDomain domain = tf_domain(c.optical_model.parameters, *field);
   if (!domain.note.empty()) scene.notes.push_back(domain.note);
@@ -261,7 +273,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const nlohmann::json& size = c.image.json("size");
   job.width = size[0].get<int>();
   job.height = size[1].get<int>();
-  job.fast = c.top.text("precision") == "fast";
+  job.precision = precision_of(c);
   job.kernel_folder = Registry::kernel_folder();
   if (!c.limits.is_null("gpu_buffer")) job.gpu_buffer_limit = std::uint64_t(c.limits.integer("gpu_buffer"));
 
@@ -281,10 +293,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
 
   job.frame.plugin = "frame";
   add_camera(c.camera, *field, job.width, job.height, job.frame);
-  refuse_tiny_step(*field, scene.step, job.frame);
+  if (!samples_cells(c)) refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, scene.step, job.frame);
-  add_skipping(sampling.boolean("skipping"), *field, scene.medium, options, job.frame);
+  add_skipping(skips(c), *field, scene.medium, options, job.frame);
   add_medium(scene.medium, options, job.frame);
   add_discrete_surfaces(scene.medium, options.fold_shaded, job.frame);
   add_means(scene.medium, options, declared.mean_bins, declared.barycentre && job.full, job.frame);
@@ -301,7 +313,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.sampler = registry.get<SamplerPlugin>("sampler", sampler).bind(*field);
   job.sampler.plugin = sampler;
   job.sampler.folder = registry.find("sampler", sampler).folder;
-  if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
+  if (samples_cells(c))
+    add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
+              OccupiedBins(scene.medium, options), job.frame);
+  if ((samples_cells(c) || walks(job.sampler)) && (declared.fixed_length || (declared.neighbours && surfaces)))
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" needs equally spaced samples, but sampler \"" + sampler +
                      "\" ends its segments at the faces of cells; choose another estimator");
@@ -313,7 +328,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const auto start = std::chrono::steady_clock::now();
   estimator.prepare(c.estimator.parameters,
                     {&seen, options.lo, options.hi, scene.step, job.full,
-                     shading.mode == LocalShading::Mode::prescribed, c.estimator.folder},
+                     shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder},
                     job.estimator);
   scene.table_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return scene;

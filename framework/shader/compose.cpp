@@ -23,6 +23,7 @@ constexpr Part part_list[] = {
     {From::framework, "compat/glsl.glsl"},
     {From::generated, ""},
     {From::framework, "math.kernel"},
+    {From::framework, "algebra.kernel"},
     {From::framework, "medium.kernel"},
     {From::framework, "ray.kernel"},
     {From::framework, "shading.kernel"},
@@ -91,8 +92,8 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
       job.gpu_buffer_limit == 0 ? limits.buffer_range : std::min(limits.buffer_range, job.gpu_buffer_limit);
   ComposedShader shader;
   shader.target = limits.target;
-  shader.fast = job.fast;
-  if (!job.fast) shader.float_modes = limits.float_modes;
+  shader.fast = job.precision == Precision::fast;
+  if (!shader.fast) shader.float_modes = limits.float_modes;
   shader.band.name = "dvr_band";
 
   const std::vector<Uniform> band{Uniform::integer("frame_band_y", 0), Uniform::integer("frame_width", job.width),

@@ -13,7 +13,7 @@ class GpuSession final : public BackendSession {
  public:
   /// `band_seconds`: the longest time that one dispatch should take.
   GpuSession(std::unique_ptr<GpuDevice> device, double band_seconds);
-  DeviceInfo device() const override { return device_->info(); }
+  DeviceInfo device(Precision) const override { return device_->info(); }
   std::uint64_t bytes_needed(const FrameJob& job) const override;
   void render(const FrameJob& job, FrameResult& result) override;
 

@@ -1,5 +1,7 @@
 #include "framework/shader/uniform_blocks.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -23,7 +25,8 @@ const char* type_word(Uniform::Type type) {
   throw std::logic_error("uniform of an unknown type");
 }
 
-std::string literal(const Uniform& uniform, float value) {
+std::string literal(const Uniform& uniform, double x) {
+  const float value = static_cast<float>(x);
   if (!std::isfinite(value)) throw std::logic_error("the constant " + uniform.name + " is not finite");
   char text[32];
   std::snprintf(text, sizeof(text), "float(%.9g)", double(value));  // 9 digits: exact for float
@@ -54,7 +57,9 @@ UniformBlock layout_block(const std::string& name, const std::vector<Uniform>& u
     const std::size_t size = uniform.type == Uniform::Type::vec4 ? 16 : 4;
     const std::size_t offset = (block.bytes.size() + size - 1) / size * size;  // std140: size is alignment here
     block.bytes.resize(offset + size);
-    const void* value = uniform.type == Uniform::Type::i32 ? static_cast<const void*>(&uniform.i) : uniform.f.data();
+    std::array<float, 4> f;
+    std::transform(uniform.f.begin(), uniform.f.end(), f.begin(), [](double x) { return static_cast<float>(x); });
+    const void* value = uniform.type == Uniform::Type::i32 ? static_cast<const void*>(&uniform.i) : f.data();
     std::memcpy(block.bytes.data() + offset, value, size);
     block.members.push_back({uniform.name, static_cast<std::uint32_t>(offset)});
   }

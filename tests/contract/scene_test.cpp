@@ -26,10 +26,10 @@ TEST(Sampler, GradientFollowsThePhysicalValue) {
     grid.slope = slope;
     for (const Uniform& u : registry().get<SamplerPlugin>("sampler", "grid").bind(grid).uniforms)
       if (u.name == "grid_gradient_x") return u.f[0];
-    return 0.0f;
+    return 0.0;
   };
-  EXPECT_EQ(row(2.0), 1.0f);
-  EXPECT_EQ(row(-2.0), -1.0f);
+  EXPECT_EQ(row(2.0), 1.0);
+  EXPECT_EQ(row(-2.0), -1.0);
 }
 
 std::string refusal(const json& config) {

@@ -53,6 +53,7 @@ json needed(const std::string& section, const std::string& type) {
                              {"camera.ray", {{"origin", {-2, 0.1, 0.2}}, {"direction", {1, 0.1, 0}}}},
                              {"lights.directional", {{"direction", {1, 0.3, 0.5}}}},
                              {"lights.point", {{"position", {3, -2, 1}}}},
+                             {"sampling.cells", {{"tolerance", 1e-3}}},
                              {"clip.", {{"normal", {0, 0.3, 1}}, {"offset", 0.3}}}};
   return table.value(section + "." + type, json::object());
 }
@@ -151,6 +152,26 @@ INSTANTIATE_TEST_SUITE_P(Framework, EverySection, testing::Range(std::size_t{0},
                            const SectionType& s = section_types()[instance.param];
                            return std::string(s.section) + (*s.type != '\0' ? "_" : "") + s.type;
                          });
+
+// `precision` has a third word beside the one that its declaration tries.
+TEST(SectionLiveness, Fp64ChangesTheImageAndComesInDouble) {
+  json config = base();
+  const FrameImage strict = outcome_of(config).image;
+  config["precision"] = "fp64";
+  const Outcome fp64 = outcome_of(config);
+  ASSERT_EQ(fp64.refusal, "");
+  EXPECT_GT(differing_values(strict, fp64.image), 0u);
+  EXPECT_LT(largest_difference(strict, fp64.image), 1e-3) << "it is the same picture";
+  EXPECT_TRUE(strict.color64.empty() && strict.trans64.empty());
+  ASSERT_EQ(fp64.image.color64.size(), fp64.image.color.size());
+  ASSERT_EQ(fp64.image.trans64.size(), fp64.image.trans.size());
+  std::size_t finer = 0;
+  for (std::size_t k = 0; k < fp64.image.color.size(); ++k) {
+    EXPECT_EQ(fp64.image.color[k], static_cast<float>(fp64.image.color64[k]));
+    finer += static_cast<double>(fp64.image.color[k]) != fp64.image.color64[k];
+  }
+  EXPECT_GT(finer, fp64.image.color.size() / 4) << "more than fp32 can hold";
+}
 
 // Planted faults: keys that do not keep their word are seen.
 TEST(SectionLiveness, SeesKeysThatBreakTheirWord) {

@@ -174,12 +174,16 @@ TEST(Procedural, FormulaFieldCarriesTheLayout) {
   EXPECT_EQ(field->uniforms[0].i, static_cast<int>(Kind::polyline));
   EXPECT_TRUE(field->uniforms[0].constant);
   EXPECT_EQ(field->uniforms[1].i, 3);
-  EXPECT_EQ(field->uniforms[2].f, (std::array<float, 4>{0, 1, 0, 0}));
+  EXPECT_EQ(field->uniforms[2].f, (std::array<double, 4>{0, 1, 0, 0}));
   ASSERT_EQ(field->buffers.size(), 1u);
   ASSERT_EQ(field->buffers[0].count, 3u);
   const auto* node = static_cast<const float*>(field->buffers[0].data.get());
   EXPECT_EQ(node[2], 0.5f);
   EXPECT_EQ(node[6], -1.2f);
+  const auto* node64 = static_cast<const double*>(field->buffers[0].data64.get());
+  ASSERT_NE(node64, nullptr);
+  EXPECT_DOUBLE_EQ(node64[2], 0.5);
+  EXPECT_DOUBLE_EQ(node64[6], -1.2);
 }
 
 TEST(Procedural, TangleAndSphereMeetTheirDefinitions) {

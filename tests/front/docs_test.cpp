@@ -82,7 +82,7 @@ TEST_F(Docs, WrongExamplesFailAsShown) {
       EXPECT_EQ(replaced(error.what(), folder_ + "/configs/", ""), e.errors);
     }
   }
-  EXPECT_EQ(wrong, 2u);
+  EXPECT_EQ(wrong, 3u);
 }
 
 // The page says so of this example; 64 x 48 pixels, so that it is cheap.

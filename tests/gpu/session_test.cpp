@@ -99,7 +99,7 @@ TEST_P(Session, TellsItsPhasesAndItsDevice) {
     EXPECT_LT(time.seconds, 60) << time.phase;
   }
   EXPECT_EQ(phases, (std::vector<std::string>{"upload", "compile", "march", "download"}));
-  EXPECT_FALSE(session->device().device.empty());
+  EXPECT_FALSE(session->device(Precision::strict).device.empty());
   EXPECT_GT(session->bytes_needed(scene.job), 40u * 36u * 32u);
 }
 
@@ -113,7 +113,8 @@ TEST_P(Session, UnknownDeviceListsWhatIsThere) {
     EXPECT_NE(text.find("no such card"), std::string::npos) << text;
     EXPECT_NE(text.find("0: "), std::string::npos) << text;
   }
-  EXPECT_EQ(open(GetParam(), {{"device", "\"0\""}})->device().api, session->device().api);
+  EXPECT_EQ(open(GetParam(), {{"device", "\"0\""}})->device(Precision::strict).api,
+            session->device(Precision::strict).api);
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, Session, testing::Values("vulkan", "opengl"),

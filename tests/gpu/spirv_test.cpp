@@ -37,7 +37,7 @@ Arithmetic arithmetic_of(const Spirv& module) {
 CompiledShader compile(const std::string& probe_body, bool fast = false, ShaderTarget target = ShaderTarget::vulkan) {
   const ProbeKernels kernels(probe_body);
   FrameJob job = kernels.job(8, 8);
-  job.fast = fast;
+  job.precision = fast ? Precision::fast : Precision::strict;
   job.estimator.uniforms = {Uniform::real("u", 2)};
   return compile_shader(compose_shader(job, roomy_limits(target)));
 }

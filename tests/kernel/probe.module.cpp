@@ -16,10 +16,13 @@ const dvr_bindings bindings = {uniforms, 3, nullptr, 0};
 #define DVR_RGB 0
 struct Probe : kernel_base {
   using kernel_base::kernel_base;
+// The order of the texts matters.
+// clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/steps.kernel"
+  // clang-format on
 };
 
 template <class F>

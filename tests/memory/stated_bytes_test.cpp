@@ -77,6 +77,27 @@ TEST_P(Stated, BytesAreWhatIsTaken) {
 INSTANTIATE_TEST_SUITE_P(Backends, Stated, testing::Values("cpu", "vulkan", "opengl"),
                          [](const auto& instance) { return std::string(instance.param); });
 
+TEST(Fp64, TheImageInDoubleIsStatedAndTaken) {
+  constexpr int side = 1024;
+  constexpr double bytes = 6.0 * side * side * (sizeof(float) + sizeof(double));
+  CaseRenderer renderer(registry());
+  const PlannedCase c =
+      case_of(16, {{"type", "cpu"}},
+              {{"precision", "fp64"}, {"image", {{"size", {side, side}}}}, {"sampling", {{"step", 16}}}});
+  const PlannedCase small = case_of(16, {{"type", "cpu"}}, {{"precision", "fp64"}});
+  run(renderer, small);
+  if (!reset_peak()) GTEST_SKIP() << "not supported: the kernel does not reset the peak of this process";
+  const double before = status_bytes("VmRSS");
+  const CaseRecord record = run(renderer, c);
+  double stated = 0;
+  for (const auto& [part, size] : record.memory)
+    if (part == "backend 'cpu'") stated = size;
+  const double taken = status_bytes("VmHWM") - before;
+  std::printf("fp64 image: stated %.1f MiB, taken %.1f MiB\n", stated / 1048576, taken / 1048576);
+  EXPECT_EQ(stated, bytes);
+  EXPECT_NEAR(taken, bytes, 12 << 20);
+}
+
 TEST(Limit, RefusalNamesEveryPartAndTheSum) {
   CaseRenderer renderer(registry());
   const PlannedCase c = case_of(64, {{"type", "cpu"}}, {{"limits", {{"memory", 900000}}}});

@@ -59,6 +59,17 @@ def main(folder):
         if not samples or min(samples) == 0:
             sys.exit(f"mine_{kind}: the example composited no sample ({len(cases)} cases)")
         print(f"mine_{kind}: {len(cases)} cases, {sum(samples)} samples")
+    # What carries a kernel was built in double as well, and renders so.
+    for kind in ["sampler", "estimator"]:
+        folder_of = plugins / kind / f"mine_{kind}"
+        if not (folder_of / f"mine_{kind}.fp64.so").exists():
+            sys.exit(f"mine_{kind} has no kernel module in fp64")
+        out = folder / "out64"
+        run(dvrlab, "--plugin-path", plugins, "run", folder_of / f"mine_{kind}.example.json", "--out", out, "--set", "precision=fp64")
+        drivers = [json.loads(c.read_text())["backend"]["driver"] for c in out.glob(f"mine_{kind}.example/cases/*/case.json")]
+        if not drivers or set(drivers) != {"kernel modules fp64"}:
+            sys.exit(f"mine_{kind} in fp64 ran on {drivers}")
+        print(f"mine_{kind}: {len(drivers)} cases in fp64")
     print(run(cmake.replace("cmake", "ctest"), "--test-dir", target, "-R", "metric[.]mine_metric", "--no-tests=error"))
 
     # One folder by itself, against the build tree instead of the prefix.

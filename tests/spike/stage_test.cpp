@@ -10,6 +10,7 @@
 
 #include "backends/cpu/denormals.h"
 #include "backends/cpu/modules.h"
+#include "framework/interfaces/error.h"
 #include "framework/scene/buffers.h"
 #include "tests/spike/spike.h"
 
@@ -34,15 +35,16 @@ Stage with_grid(Stage s) {
   return s;
 }
 
-Volume run_cpu(const FrameJob& job, const Stage& stage, const std::string& isa) {
+template <class Real>
+std::vector<Real> run_cpu(const FrameJob& job, const Stage& stage, const std::string& isa) {
   static cpu::ModuleCache modules;
   cpu::Bindings bindings;
   bindings.add(job.frame);
   bindings.add(stage.unit);
-  const cpu::ModuleFrame frame(modules.get(DVRLAB_SPIKE_PLUGINS "/stage", stage.unit.plugin, isa), bindings.view(),
-                               job.rgb ? DVR_FEATURE_RGB : 0);
+  const cpu::ModuleFrame<Real> frame(modules.get(DVRLAB_SPIKE_PLUGINS "/stage", stage.unit.plugin, isa),
+                                     bindings.view(), job.rgb ? DVR_FEATURE_RGB : 0);
   const auto [nx, ny, nz] = stage.size;
-  Volume out(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
+  std::vector<Real> out(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
   const cpu::KeepDenormals keep;
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)
@@ -156,7 +158,7 @@ std::array<Volume, 2> run_everywhere(const std::string& what, const Scene& scene
   for (const Target& target : targets()) {
     if (!target.session) continue;
     const auto run = [&](const Stage& stage) {
-      return target.name.starts_with("cpu ") ? run_cpu(scene.job, stage, target.name.substr(4))
+      return target.name.starts_with("cpu ") ? run_cpu<float>(scene.job, stage, target.name.substr(4))
                                              : run_gpu(scene.job, stage, *target.session);
     };
     const auto start = std::chrono::steady_clock::now();
@@ -189,6 +191,35 @@ TEST(SpikeStage, Homogeneous) {
   for (const float a : local) ASSERT_NEAR(a, 1 - std::exp(-tau * reach), 1e-6);
   EXPECT_NEAR(global.front(), std::exp(-tau * reach * segments), 2e-6) << "all segments inside";
   EXPECT_NEAR(global.back(), std::exp(-tau * reach), 2e-6) << "the corner at the light: the first segment only";
+}
+
+// Both stages in double: the second one reads the first one's volume in double.
+TEST(SpikeStage, InFp64) {
+  const std::array<int, 3> size{37, 33, 29};
+  const auto run = [&](const Scene& scene) {
+    const std::vector<double> local = run_cpu<double>(scene.job, local_stage(scene, size), cpu::fp64_isa);
+    Stage global = global_stage(Volume(local.begin(), local.end()), size);
+    EXPECT_THROW(run_cpu<double>(scene.job, global, cpu::fp64_isa), InputError) << "a volume without fp64 values";
+    const auto owner = std::make_shared<std::vector<double>>(local);
+    global.unit.buffers[0].data64 = {owner, owner->data()};
+    return std::array{local, run_cpu<double>(scene.job, global, cpu::fp64_isa)};
+  };
+  const double tau = 0.11;
+  const auto constant = run(lit_scene("float32", false, tau));
+  double worst = std::fabs(constant[1].front() - std::exp(-tau * reach * segments));
+  for (const double a : constant[0]) worst = std::max(worst, std::fabs(a - (1 - std::exp(-tau * reach))));
+  std::printf("stages in fp64, constant: worst error %.3g, bound 1e-14\n", worst);
+  EXPECT_LE(worst, 1e-14);
+
+  const Scene scene = lit_scene("uint8", false, 0);
+  const auto fp64 = run(scene);
+  const Volume fp32 = run_cpu<float>(scene.job, local_stage(scene, size), "scalar");
+  double difference = 0;
+  for (std::size_t k = 0; k < fp32.size(); ++k)
+    difference = std::max(difference, std::fabs(double(fp32[k]) - fp64[0][k]));
+  std::printf("stages in fp64, a grid: at most %.3g from fp32\n", difference);
+  EXPECT_LE(difference, 1e-4);
+  EXPECT_GT(difference, 1e-9) << "the comparison does not see fp32";
 }
 
 }  // namespace

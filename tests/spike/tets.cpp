@@ -17,7 +17,7 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
 }
 
 struct Tets {
-  std::vector<float> plane, field;
+  std::vector<double> plane, field;
   std::vector<std::int32_t> neighbour;
   std::map<std::array<Vector3, 3>, std::size_t> open;  // faces that have one side so far
   double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
@@ -35,7 +35,7 @@ struct Tets {
       for (std::size_t c = 0; c < 3; ++c) gradient[c] += v * normal[c] / height;
       const double length = std::copysign(std::sqrt(dot(normal, normal)), -height);
       for (double& x : normal) x /= length;
-      plane.insert(plane.end(), {float(normal[0]), float(normal[1]), float(normal[2]), float(dot(normal, face[0]))});
+      plane.insert(plane.end(), {normal[0], normal[1], normal[2], dot(normal, face[0])});
       std::sort(face.begin(), face.end());
       neighbour.push_back(-1);
       const auto [known, is_new] = open.emplace(face, 4 * cell + f);
@@ -44,8 +44,7 @@ struct Tets {
         neighbour[known->second] = std::int32_t(cell);
       }
     }
-    field.insert(field.end(), {float(gradient[0]), float(gradient[1]), float(gradient[2]),
-                               float(value(vertex[0]) - dot(gradient, vertex[0]))});
+    field.insert(field.end(), {gradient[0], gradient[1], gradient[2], value(vertex[0]) - dot(gradient, vertex[0])});
   }
 };
 

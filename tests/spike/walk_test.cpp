@@ -1,4 +1,5 @@
 // A sampler that walks from face to face and yields segments of variable length, with holes: on every target.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/spike/spike.h"
@@ -66,6 +67,37 @@ TEST(SpikeWalk, HolesAreNoMatter) {
     EXPECT_NEAR(r.image.trans[c], t, 2e-6);
     EXPECT_NEAR(r.image.color[c], color[c] * (1 - t), 2e-6);
   }
+}
+
+// The same walk in double, by an estimator without constants of fp32.
+TEST(SpikeWalk, HolesInFp64) {
+  const double tau = 1.3;
+  const TetBlock block{{0, -1, -1},
+                       {1, 1, 1},
+                       {5, 1, 1},
+                       [](const Vector3&) { return 0.5; },
+                       [](int i, int, int) { return i != 1 && i != 2; }};
+  json config = ray_case(1.0, 0.3, 0.1);
+  config["optical_model"]["extinction"] = {{0, tau}};
+  config["optical_model"]["color"] = {{0, 0.5, 0.6, 0.7}};
+  config["estimator"] = {{"type", "direct"}};
+  const double t = std::exp(-tau * 0.6), color[3] = {0.5, 0.6, 0.7};
+  FrameJob job = scene_of(config.dump(), make_tets(block)).job;
+  BackendSession& cpu = *targets().front().session;
+  FrameResult fp32, fp64;
+  cpu.render(job, fp32);
+  job.precision = Precision::fp64;
+  cpu.render(job, fp64);
+  EXPECT_EQ(fp64.counters.samples, fp32.counters.samples);
+  double worst = 0, worst32 = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    worst =
+        std::max({worst, std::fabs(fp64.image.trans64[c] - t), std::fabs(fp64.image.color64[c] - color[c] * (1 - t))});
+    worst32 = std::max(worst32, std::fabs(double(fp32.image.trans[c]) - t));
+  }
+  std::printf("walk, holes in fp64: worst error %.3g, bound 1e-14; fp32 %.3g\n", worst, worst32);
+  EXPECT_LE(worst, 1e-14);
+  EXPECT_GT(worst32, 1e-10) << "the comparison does not see fp32";
 }
 
 TEST(SpikeWalk, SameBitsOnAPerspectiveView) {

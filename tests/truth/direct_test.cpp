@@ -2,33 +2,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/support/golden_case.h"
-#include "tests/support/render.h"
+#include "tests/truth/ray_cases.h"
 
 namespace dvrlab::test {
 namespace {
 
 using nlohmann::json;
-
-// A ray along x through a formula field, with exact transfer function nodes: the only error is the estimator's.
-json ray_config(const json& field, double length, double step) {
-  json data = {{"type", "procedural"}, {"evaluate", "formula"}, {"bounds", {{-8, -8, -8}, {8, 8, 8}}}};
-  data.update(field);
-  return {{"data", data},
-          {"estimator", {{"type", "direct"}}},
-          {"camera",
-           {{"type", "ray"}, {"frame", "world"}, {"origin", {0, 0, 0}}, {"direction", {1, 0, 0}}, {"t", {0, length}}}},
-          {"sampling", {{"type", "uniform"}, {"step", step}, {"unit", "world"}, {"termination", 0}}},
-          {"image", {{"size", {1, 1}}}}};
-}
-
-json ramp_field(double v0, double v1, double length) {
-  return {{"field", "ramp"}, {"direction", {1, 0, 0}}, {"offset", v0}, {"scale", (v1 - v0) / length}};
-}
-
-json model(const json& extinction, const json& color) {
-  return {{"type", "absorption_emission"}, {"tf", "nodes"}, {"extinction", extinction}, {"color", color}};
-}
 
 double error_of(const FrameImage& image, const RayIntegral& truth) {
   double worst = 0;
@@ -115,28 +94,9 @@ TEST_P(Truth, GoldenSegmentsConverge) {
 TEST_P(Truth, GoldenLevoySphereConverges) {
   const json g = golden_case("levoy_sphere");
   if (g.is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-  const json &ray = g.at("ray"), &shade = g.at("shade"), &params = g.at("params");
-  const double D = ray.at("D");
   std::vector<double> e;
   for (int n : {32, 128, 512, 2048}) {
-    json config = ray_config({{"field", "radial"},
-                              {"center", {ray.at("lc"), ray.at("p"), 0}},
-                              {"scale", ray.at("scale")},
-                              {"offset", ray.at("offset")}},
-                             D, D / n);
-    config["optical_model"] = {{"type", "absorption_emission"},
-                               {"tf", "nodes"},
-                               {"shaded", true},
-                               {"opacity", params.at("alpha")},
-                               {"color", params.at("color")},
-                               {"dl_std", params.at("dl_std")}};
-    config["lights"] = {{{"type", "head"}}};
-    config["illumination"] = {{{"type", "blinn_phong"},
-                               {"ambient", shade.at("ka")},
-                               {"diffuse", shade.at("kd")},
-                               {"specular", shade.at("ks")},
-                               {"shininess", shade.at("n")}}};
-    config["image"]["background"] = g.at("background");
+    const json config = direct_config(g, n);
     SKIP_WHEN_NOT_SUPPORTED(e.push_back(error(config, golden_integral(g))))
   }
   std::printf("levoy_sphere: error %.2e %.2e %.2e %.2e at N = 32, 128, 512, 2048\n", e[0], e[1], e[2], e[3]);

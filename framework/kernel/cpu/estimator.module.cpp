@@ -24,14 +24,14 @@ using dvr::floor;
 #include "framework/kernel/cpu/estimator_variant.h"
 
 template <class E>
-int make(void* frame, const dvr_bindings* bindings, dvr_calls* calls, char* missing) {
+int make(void* frame, const dvr_bindings* bindings, module_calls* calls, char* missing) {
   missing[0] = 0;
   new (frame) E(bindings, missing);
-  calls->estimator.integrate = [](const void* f, const dvr_packet* p, dvr_chunk* c) { local<E>(f).integrate(p, c); };
+  calls->estimator.integrate = [](const void* f, const ray_packet* p, ray_chunk* c) { local<E>(f).integrate(p, c); };
   return missing[0] != 0;
 }
 
-int init(void* frame, const dvr_bindings* bindings, int features, dvr_calls* calls, char* missing) {
+int init(void* frame, const dvr_bindings* bindings, int features, module_calls* calls, char* missing) {
   switch (features & (DVR_FEATURE_RGB | DVR_FEATURE_FULL)) {
     case 0:
       return make<Estimator_grey>(frame, bindings, calls, missing);
@@ -54,7 +54,7 @@ const dvr_kernel_module module = {DVR_KERNEL_ABI,
                                          larger(sizeof(Estimator_full_grey), sizeof(Estimator_full_rgb))),
                                   alignof(Estimator_full_rgb),
                                   0,
-                                  &init};
+                                  DVR_INIT(&init)};
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const dvr_kernel_module* dvrlab_kernel_module() { return &module; }

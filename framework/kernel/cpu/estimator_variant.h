@@ -4,7 +4,7 @@ struct DVR_STRUCT : kernel_base {
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/shading.kernel"
 #include "framework/kernel/segment.kernel"
@@ -16,7 +16,7 @@ struct DVR_STRUCT : kernel_base {
   // clang-format on
 
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
-  KFN void integrate(const dvr_packet* p, dvr_chunk* c) {
+  KFN void integrate(const ray_packet* p, ray_chunk* c) {
     segment q = segment_of_ray({load(p->world_o[0]), load(p->world_o[1]), load(p->world_o[2])},
                                {load(p->world_d[0]), load(p->world_d[1]), load(p->world_d[2])}, load(p->length));
     const int n = c->n;

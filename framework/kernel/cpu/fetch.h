@@ -24,7 +24,7 @@ struct voxels {
   const T* data;
 };
 struct table4 {
-  const float* data;
+  const scalar* data;
 };
 struct tablei {
   const int32_t* data;
@@ -47,21 +47,21 @@ struct lane_index {
 
 template <class T>
 DVR_INLINE real fetch1(voxels<T> b, inti i) {
-  return {float(b.data[uint32_t(i.v)])};
+  return {scalar(b.data[uint32_t(i.v)])};
 }
 template <class T>
 DVR_INLINE void fetch2_at(const T* p, const lane_index& i, real& a, real& b) {
-  a = {float(p[i.i[0]])};
-  b = {float(p[i.i[0] + 1])};
+  a = {scalar(p[i.i[0]])};
+  b = {scalar(p[i.i[0] + 1])};
 }
 DVR_INLINE inti fetchi(tablei b, inti i) { return {b.data[i.v]}; }
 DVR_INLINE inti fetchi(bytes8 b, inti i) { return {b.data[uint32_t(i.v)]}; }
 DVR_INLINE vec4r fetch4(table4 b, inti i) {
-  const float* p = b.data + 4 * i.v;
+  const scalar* p = b.data + 4 * i.v;
   return {{p[0]}, {p[1]}, {p[2]}, {p[3]}};
 }
 DVR_INLINE vec4r fetch4_affine(table4 b, inti i, real w) {
-  const float* p = b.data + 8 * i.v;
+  const scalar* p = b.data + 8 * i.v;
   return {{p[0] + p[4] * w.v}, {p[1] + p[5] * w.v}, {p[2] + p[6] * w.v}, {p[3] + p[7] * w.v}};
 }
 
@@ -273,7 +273,7 @@ DVR_INLINE cell8 fetch_cell(voxels<T> b, inti base, int dy, int dz) {
 }
 /// An entry that is the same for all lanes.
 DVR_INLINE vec4r fetch4u(table4 b, int i) {
-  const float* p = b.data + 4 * i;
+  const scalar* p = b.data + 4 * i;
   return {R(p[0]), R(p[1]), R(p[2]), R(p[3])};
 }
 

@@ -25,16 +25,29 @@ DVR_INLINE vec4r select(mask m, vec4r a, vec4r b) {
 }
 DVR_INLINE vec3r xyz(vec4r a) { return {a.x, a.y, a.z}; }
 
+/// What the backend and the modules share, in this module's type of number.
+#ifdef DVR_ISA_fp64
+typedef dvr_packet64 ray_packet;
+typedef dvr_chunk64 ray_chunk;
+typedef dvr_calls64 module_calls;
+#define DVR_INIT(function) nullptr, function
+#else
+typedef dvr_packet ray_packet;
+typedef dvr_chunk ray_chunk;
+typedef dvr_calls module_calls;
+#define DVR_INIT(function) function, nullptr
+#endif
+
 /// Three rows of a packet.
-DVR_INLINE vec3r load3(const float (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
-DVR_INLINE void store3(float (*p)[DVR_MAX_WIDTH], vec3r a) {
+DVR_INLINE vec3r load3(const scalar (*p)[DVR_MAX_WIDTH]) { return {load(p[0]), load(p[1]), load(p[2])}; }
+DVR_INLINE void store3(scalar (*p)[DVR_MAX_WIDTH], vec3r a) {
   store(p[0], a.x);
   store(p[1], a.y);
   store(p[2], a.z);
 }
 
 struct uvec4 {
-  float x, y, z, w;
+  scalar x, y, z, w;
 };
 DVR_INLINE vec3r V3(uvec4 u) { return {R(u.x), R(u.y), R(u.z)}; }
 
@@ -58,9 +71,9 @@ struct kernel_base {
     note(name);
     return nullptr;
   }
-  float uniform_f(const char* name) {
+  scalar uniform_f(const char* name) {
     const dvr_uniform* u = uniform(name, DVR_F32);
-    return u ? u->f[0] : 0.0f;
+    return u ? scalar(u->f[0]) : scalar(0);
   }
   int uniform_i(const char* name) {
     const dvr_uniform* u = uniform(name, DVR_I32);
@@ -68,7 +81,7 @@ struct kernel_base {
   }
   uvec4 uniform_v(const char* name) {
     const dvr_uniform* u = uniform(name, DVR_VEC4);
-    return u ? uvec4{u->f[0], u->f[1], u->f[2], u->f[3]} : uvec4{};
+    return u ? uvec4{scalar(u->f[0]), scalar(u->f[1]), scalar(u->f[2]), scalar(u->f[3])} : uvec4{};
   }
   template <class T>
   const T* buffer(const char* name, int element) {
@@ -78,6 +91,21 @@ struct kernel_base {
     }
     note(name);
     return nullptr;
+  }
+  /// Numbers that were computed, in this module's precision. A table without fp64 values is missing to a module in
+  /// fp64.
+  const scalar* numbers(const char* name, int element) {
+#ifdef DVR_ISA_fp64
+    for (int k = 0; k < bindings->buffer_count; ++k) {
+      const dvr_buffer* b = bindings->buffers + k;
+      if (strcmp(b->name, name) == 0 && b->element == element && b->data64)
+        return static_cast<const double*>(b->data64);
+    }
+    note(name);
+    return nullptr;
+#else
+    return buffer<float>(name, element);
+#endif
   }
 };
 
@@ -94,11 +122,11 @@ DVR_INLINE State local(const void* frame) {
 #define KFN DVR_INLINE
 #define OUT(type) type&
 #define INOUT(type) type&
-#define UNIFORM_F(name) float name = this->uniform_f(#name);
+#define UNIFORM_F(name) dvr::scalar name = this->uniform_f(#name);
 #define UNIFORM_I(name) int name = this->uniform_i(#name);
 #define UNIFORM_V(name) dvr::uvec4 name = this->uniform_v(#name);
-#define TABLE4(name) dvr::table4 name = {this->buffer<float>(#name, DVR_ELEMENT_VEC4)};
+#define TABLE4(name) dvr::table4 name = {this->numbers(#name, DVR_ELEMENT_VEC4)};
 #define TABLEI(name) dvr::tablei name = {this->buffer<int32_t>(#name, DVR_ELEMENT_I32)};
 #define BYTES(name) dvr::bytes8 name = {this->buffer<uint8_t>(#name, DVR_ELEMENT_U8)};
-#define VOLUME(name) dvr::voxels<float> name = {this->buffer<float>(#name, DVR_ELEMENT_F32)};
+#define VOLUME(name) dvr::voxels<dvr::scalar> name = {this->numbers(#name, DVR_ELEMENT_F32)};
 // VOXELS(name) is defined by the sampler and stage modules: the voxel type is the module's variant.

@@ -4,13 +4,13 @@ struct DVR_STRUCT : kernel_base {
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/composite.kernel"
   // clang-format on
 
-  KFN static spectral load_trans(const float* a, const float* b, const float* c) {
+  KFN static spectral load_trans(const scalar* a, const scalar* b, const scalar* c) {
 #if DVR_RGB
     return {load(a), load(b), load(c)};
 #else
@@ -19,7 +19,7 @@ struct DVR_STRUCT : kernel_base {
     return load(a);
 #endif
   }
-  KFN static void store_trans(dvr_packet* p, spectral t) {
+  KFN static void store_trans(ray_packet* p, spectral t) {
 #if DVR_RGB
     store3(p->trans, t);
 #else
@@ -28,7 +28,7 @@ struct DVR_STRUCT : kernel_base {
   }
 
   // Rays of the packet whose first pixel is (x, y).
-  KFN void begin(int x, int y, dvr_packet* p) {
+  KFN void begin(int x, int y, ray_packet* p) {
     alignas(64) int px[DVR_MAX_WIDTH], py[DVR_MAX_WIDTH];
     for (int l = 0; l < W; ++l) {
       px[l] = x + l % DVR_PACKET_COLUMNS;
@@ -49,7 +49,7 @@ struct DVR_STRUCT : kernel_base {
   }
 
   // Consumes a chunk in order. A lane without a segment, or whose ray has ended, is left as it is.
-  KFN void run(dvr_packet* p, const dvr_chunk* c) {
+  KFN void run(ray_packet* p, const ray_chunk* c) {
     vec3r color = load3(p->color);
     spectral trans = load_trans(p->trans[0], p->trans[1], p->trans[2]);
     inti samples = load(p->samples), ended = load(p->terminated);
@@ -73,7 +73,7 @@ struct DVR_STRUCT : kernel_base {
     store(p->n, select(ended == I(1), imin(load(p->n), load(p->i)), load(p->n)));
   }
 
-  KFN void finish(dvr_packet* p) {
+  KFN void finish(ray_packet* p) {
     const spectral trans = load_trans(p->trans[0], p->trans[1], p->trans[2]);
     store3(p->color, over_background(load3(p->color), trans));
     store3(p->trans, rgb_of(trans));

@@ -1,7 +1,7 @@
 // SIMD packs of one instruction set: the types real, inti and mask of the kernel language, as C++.
-// Chosen by DVR_ISA_<name>; everything is header-only and always inlined, so a module is one translation unit.
-// Arithmetic uses the compiler's vector extension, so one text serves 4, 8 and 16 lanes; only masks, rounding
-// and the assembling of loads name intrinsics.
+// Chosen by DVR_ISA_<name>, where fp64 is one lane in double; everything is header-only and always inlined, so a module
+// is one translation unit. Arithmetic uses the compiler's vector extension, so one text serves 4, 8 and 16 lanes; only
+// masks, rounding and the assembling of loads name intrinsics.
 #pragma once
 
 #include <immintrin.h>
@@ -29,8 +29,14 @@ constexpr int W = 4;
 constexpr int W = 1;
 #endif
 
+#ifdef DVR_ISA_fp64
+typedef double scalar;
+#else
+typedef float scalar;
+#endif
+
 #ifdef DVR_SCALAR
-typedef float vf;
+typedef scalar vf;
 typedef int32_t vi;
 typedef uint32_t vu;
 #else
@@ -76,11 +82,11 @@ struct inti {
 };
 
 #ifdef DVR_SCALAR
-DVR_INLINE real R(float x) { return {x}; }
+DVR_INLINE real R(scalar x) { return {x}; }
 DVR_INLINE inti I(int x) { return {x}; }
-DVR_INLINE real load(const float* p) { return {*p}; }
+DVR_INLINE real load(const scalar* p) { return {*p}; }
 DVR_INLINE inti load(const int* p) { return {*p}; }
-DVR_INLINE void store(float* p, real a) { *p = a.v; }
+DVR_INLINE void store(scalar* p, real a) { *p = a.v; }
 DVR_INLINE void store(int* p, inti a) { *p = a.v; }
 DVR_INLINE int lane(inti a, int) { return a.v; }
 #else
@@ -167,7 +173,11 @@ DVR_INLINE inti imax(inti a, inti b) { return select(a < b, b, a); }
 
 #ifdef DVR_SCALAR
 DVR_INLINE inti to_int(real a) { return {int32_t(a.v)}; }  // towards zero; |a| < 2^31
-DVR_INLINE real to_real(inti a) { return {float(a.v)}; }
+DVR_INLINE real to_real(inti a) { return {scalar(a.v)}; }
+#ifdef DVR_ISA_fp64
+DVR_INLINE real floor(real a) { return {__builtin_floor(a.v)}; }
+DVR_INLINE real rabs(real a) { return {__builtin_fabs(a.v)}; }
+#else
 DVR_INLINE inti as_int(real a) {
   inti r;
   memcpy(&r.v, &a.v, 4);
@@ -182,6 +192,7 @@ DVR_INLINE real floor(real a) {
   real t = to_real(to_int(a));
   return select(a < t, t - R(1.0f), t);
 }
+#endif
 #else
 DVR_INLINE inti to_int(real a) { return {__builtin_convertvector(a.v, vi)}; }
 DVR_INLINE real to_real(inti a) { return {__builtin_convertvector(a.v, vf)}; }
@@ -198,7 +209,9 @@ DVR_INLINE real floor(real a) { return {vf(_mm_floor_ps(__m128(a.v)))}; }
 #endif
 #endif
 
+#ifndef DVR_ISA_fp64  // as_int and as_real speak of the 32 bits of a float
 DVR_INLINE real rabs(real a) { return as_real(as_int(a) & I(0x7fffffff)); }
+#endif
 
 /// The largest lane: for loop bounds of the modules, not a kernel word.
 DVR_INLINE int max_lane(inti a) {

@@ -1,11 +1,12 @@
-// One voxel type of the sampler module (not guarded: included once per type).
+// One voxel type of the sampler module (not guarded: included once per type), and in fp64 its walk for sampling
+// "cells".
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
 #define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/steps.kernel"
@@ -18,7 +19,7 @@ struct DVR_STRUCT : kernel_base {
 #undef VOXELS
 
   // Moves the packet's origin to the entry point and counts its segments.
-  KFN void start(dvr_packet* p) {
+  KFN void start(ray_packet* p) {
     ray r;
     r.grid_o = load3(p->grid_o);
     r.grid_d = load3(p->grid_d);
@@ -39,7 +40,7 @@ struct DVR_STRUCT : kernel_base {
     p->carried = 0;
   }
 
-  KFN inti leap(inti i, inti n, real L, real offset, vec3r o, vec3r d, dvr_packet* p) {
+  KFN inti leap(inti i, inti n, real L, real offset, vec3r o, vec3r d, ray_packet* p) {
     for (;;) {
       const inti next = steps_leap(i, n, L, offset, o, d);
       const mask moved = next > i;
@@ -50,7 +51,7 @@ struct DVR_STRUCT : kernel_base {
     }
   }
 
-  KFN int fill(dvr_packet* p, dvr_chunk* c) {
+  KFN int fill(ray_packet* p, ray_chunk* c) {
     const inti n = load(p->n);
     inti i = load(p->i);
     const real L = load(p->length), offset = load(p->offset);
@@ -96,17 +97,17 @@ struct DVR_STRUCT : kernel_base {
     return steps;
   }
 
-  KFN void sample(dvr_chunk* c, int row, real s, vec3r o, vec3r d) {
+  KFN void sample(ray_chunk* c, int row, real s, vec3r o, vec3r d) {
     store(c->s + row * W, s);
     store(c->v + row * W, sample_value(o + d * s));
   }
-  KFN void gradient(dvr_chunk* c, int row, vec3r o, vec3r d) {
+  KFN void gradient(ray_chunk* c, int row, vec3r o, vec3r d) {
     const vec3r g = sample_gradient(o + d * load(c->s + row * W));
     store(c->g[0] + row * W, g.x);
     store(c->g[1] + row * W, g.y);
     store(c->g[2] + row * W, g.z);
   }
-  KFN void gradients_at_ends(dvr_chunk* c, int steps, vec3r o, vec3r d) {
+  KFN void gradients_at_ends(ray_chunk* c, int steps, vec3r o, vec3r d) {
     bool done = false;  // the gradient of row k is there
     for (int k = 0; k < steps; ++k) {
       const real v0 = load(c->v + k * W), v1 = load(c->v + (k + 1) * W);
@@ -118,5 +119,11 @@ struct DVR_STRUCT : kernel_base {
   }
 };
 #undef DVR_STRUCT
+#ifdef DVR_ISA_fp64
+#define DVR_STRUCT DVR_CELLS
+#include "framework/kernel/cpu/walker_variant.h"
+#undef DVR_STRUCT
+#endif
+#undef DVR_CELLS
 #undef DVR_VOXEL
 #undef DVR_VOXEL_ELEMENT

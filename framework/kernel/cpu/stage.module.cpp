@@ -29,21 +29,21 @@ constexpr int element_of<int16_t> = DVR_ELEMENT_I16;
 #include "framework/kernel/cpu/stage_variant.h"
 
 template <class S>
-int make(void* frame, const dvr_bindings* bindings, dvr_calls* calls, char* missing) {
+int make(void* frame, const dvr_bindings* bindings, module_calls* calls, char* missing) {
   missing[0] = 0;
   new (frame) S(bindings, missing);
-  calls->stage.fill_row = [](const void* f, int x0, int x1, int y, int z, float* out) {
+  calls->stage.fill_row = [](const void* f, int x0, int x1, int y, int z, scalar* out) {
     local<S>(f).fill_row(x0, x1, y, z, out);
   };
   return missing[0] != 0;
 }
 template <class T>
-int make_typed(void* frame, const dvr_bindings* bindings, int features, dvr_calls* calls, char* missing) {
+int make_typed(void* frame, const dvr_bindings* bindings, int features, module_calls* calls, char* missing) {
   return (features & DVR_FEATURE_RGB) != 0 ? make<Stage_rgb<T>>(frame, bindings, calls, missing)
                                            : make<Stage_grey<T>>(frame, bindings, calls, missing);
 }
 
-int init(void* frame, const dvr_bindings* bindings, int features, dvr_calls* calls, char* missing) {
+int init(void* frame, const dvr_bindings* bindings, int features, module_calls* calls, char* missing) {
 #if DVR_HAS_VOXELS
   for (int k = 0; k < bindings->buffer_count; ++k) {
     if (strcmp(bindings->buffers[k].name, DVR_KERNEL_NAME "_field") != 0) continue;
@@ -72,7 +72,7 @@ const dvr_kernel_module module = {DVR_KERNEL_ABI,
                                   sizeof(Stage_rgb<float>),
                                   alignof(Stage_rgb<float>),
                                   0,
-                                  &init};
+                                  DVR_INIT(&init)};
 static_assert(sizeof(Stage_grey<float>) == sizeof(Stage_rgb<float>));
 }  // namespace
 

@@ -6,7 +6,7 @@ struct DVR_STRUCT : kernel_base {
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/volume.kernel"
 #include DVR_KERNEL_FILE
@@ -14,9 +14,9 @@ struct DVR_STRUCT : kernel_base {
 #undef VOXELS
 
   // Lanes beyond x1 repeat the last voxel.
-  KFN void fill_row(int x0, int x1, int y, int z, float* out) {
+  KFN void fill_row(int x0, int x1, int y, int z, scalar* out) {
     alignas(64) int lanes[DVR_MAX_WIDTH];
-    alignas(64) float values[DVR_MAX_WIDTH];
+    alignas(64) scalar values[DVR_MAX_WIDTH];
     for (int l = 0; l < W; ++l) lanes[l] = l;
     for (int x = x0; x < x1; x += W) {
       store(values, stage_voxel(imin(load(lanes) + I(x), I(x1 - 1)), I(y), I(z)));

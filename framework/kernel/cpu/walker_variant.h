@@ -1,19 +1,41 @@
 // The walking sampler module: segments end where the kernel's walk finds the next face (not guarded). The contract of
-// walk_state, walk_start, walk_next and walk_gradient stands in framework/kernel/walk.glsl.
-struct Walker : kernel_base {
+// walk_state, walk_start, walk_next and walk_gradient stands in framework/kernel/walk.glsl. With DVR_VOXEL the walk is
+// that of sampling "cells" over a positional sampler, which also shades: it knows the ray in the world.
+struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
+#ifdef DVR_VOXEL
+#define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};
+#endif
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
-#include "framework/kernel/math.kernel"
+#include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
-#include DVR_KERNEL_FILE
-  // clang-format on
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)
+#ifdef DVR_VOXEL
+  vec3r walk_world_o, walk_world_d;
+  real walk_inv_L;
+#include "framework/kernel/volume.kernel"
+#include "framework/kernel/shading.kernel"
+#include DVR_KERNEL_FILE
+#include "framework/kernel/cells.kernel"
+#undef VOXELS
+#else
+#include DVR_KERNEL_FILE
+#endif
+  // clang-format on
 
-  KFN void start(dvr_packet* p) {
+  KFN void see(const ray_packet* p) {
+#ifdef DVR_VOXEL
+    walk_world_o = load3(p->world_o);
+    walk_world_d = load3(p->world_d);
+    walk_inv_L = rcp(rmax(load(p->length), R(1e-30)));
+#endif
+  }
+
+  KFN void start(ray_packet* p) {
     ray r;
     r.grid_o = load3(p->grid_o);
     r.grid_d = load3(p->grid_d);
@@ -30,18 +52,20 @@ struct Walker : kernel_base {
     store(p->skipped, I(0));
     store(p->length, select(hit, L, R(0.0f)));
     store(p->offset, R(0.0f));
+    see(p);
     walk_start(o, r.grid_d, select(hit, L, R(0.0f)), *static_cast<walk_state*>(p->walk));
   }
 
   // `ends`: row k is the front end of segment k, row k+1 its back end, as the positional sampler leaves them.
   // `centre`: row k+1 is the centre of segment k, half way, since the scalar is linear between faces.
-  KFN int fill(dvr_packet* p, dvr_chunk* c) {
+  KFN int fill(ray_packet* p, ray_chunk* c) {
     const inti i = load(p->i);
     inti n = load(p->n);
     if (!any_lane(i < n)) return 0;
     const real L = load(p->length);
     const vec3r o = load3(p->grid_o), d = load3(p->grid_d);
     const bool ends = frame_samples_ends != 0;
+    see(p);
     walk_state w = *static_cast<walk_state*>(p->walk);
     int k = 0;
     for (; k < DVR_CHUNK && any_lane(i + I(k) < n); ++k) {
@@ -74,11 +98,11 @@ struct Walker : kernel_base {
     return k;
   }
 
-  KFN static void put(dvr_chunk* c, int row, real s, real v) {
+  KFN static void put(ray_chunk* c, int row, real s, real v) {
     store(c->s + row * W, s);
     store(c->v + row * W, v);
   }
-  KFN static void put_gradient(dvr_chunk* c, int row, vec3r g) {
+  KFN static void put_gradient(ray_chunk* c, int row, vec3r g) {
     store(c->g[0] + row * W, g.x);
     store(c->g[1] + row * W, g.y);
     store(c->g[2] + row * W, g.z);

@@ -28,7 +28,8 @@ struct Bindings {
       for (const Uniform& u : unit->uniforms)
         uniforms.push_back({u.name.c_str(), int(u.type), {u.f[0], u.f[1], u.f[2], u.f[3]}, u.i});
       for (const Buffer& b : unit->buffers)
-        buffers.push_back({b.name.c_str(), int(b.element), b.data.get(), b.count});  // both lists have one order
+        buffers.push_back(
+            {b.name.c_str(), int(b.element), b.data.get(), b.count, nullptr});  // both lists have one order
     }
   }
 };
@@ -42,7 +43,7 @@ class Module {
     const auto entry = library ? reinterpret_cast<Entry>(dlsym(library, "dvrlab_kernel_module")) : nullptr;
     if (entry == nullptr) throw std::runtime_error("backend my_backend: " + std::string(dlerror()));
     info = entry();
-    if (info->abi != DVR_KERNEL_ABI)
+    if (info->abi != DVR_KERNEL_ABI || info->init == nullptr)
       throw std::runtime_error("backend my_backend: " + file + " has another kernel ABI; build the plugin again");
     const std::size_t align = std::max(64u, info->frame_align);
     state_ = ::operator new((info->frame_bytes + align - 1) / align * align, std::align_val_t(align));
@@ -68,7 +69,9 @@ class Module {
 class Session : public BackendSession {
  public:
   Session(std::string isa, std::string folder) : isa_(std::move(isa)), folder_(std::move(folder)) {}
-  DeviceInfo device() const override { return {"one thread", "kernel modules " + isa_, "C++ SIMD", "isa " + isa_}; }
+  DeviceInfo device(Precision) const override {
+    return {"one thread", "kernel modules " + isa_, "C++ SIMD", "isa " + isa_};
+  }
   std::uint64_t bytes_needed(const FrameJob& job) const override {
     return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * sizeof(float);
   }
@@ -129,7 +132,9 @@ class Session : public BackendSession {
 
 class MyBackend : public BackendPlugin {
  public:
-  bool supports_fast() const override { return false; }
+  std::string refuses(Precision precision, const ParameterSet&) const override {
+    return precision == Precision::strict ? "" : "has \"strict\" arithmetic only; use that";
+  }
   std::unique_ptr<BackendSession> open(const ParameterSet& p, const std::string& folder) const override {
     if (p.text("isa") == "sse4.2" && !__builtin_cpu_supports("sse4.2"))
       throw NotSupported("backend my_backend: this processor has no sse4.2; use isa \"scalar\"");

@@ -4,6 +4,7 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
+#include "framework/scene/buffers.h"
 #include "framework/scene/sha256.h"
 #include "framework/scene/voxels.h"
 #include "plugins/data/procedural/fill_grid.h"
@@ -94,10 +95,9 @@ std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& bo
   field->uniforms.push_back(Uniform::integer("formula_count", static_cast<int>(f.node.size())));
   vector("formula_p0", f.p[0]);
   vector("formula_p1", f.p[1]);
-  const auto nodes_f32 = std::make_shared<std::vector<std::array<float, 4>>>();
-  for (const auto& n : f.node)
-    nodes_f32->push_back({static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]), 0.0f});
-  field->buffers.push_back({"formula_nodes", Element::vec4, {nodes_f32, nodes_f32->data()}, nodes_f32->size()});
+  std::vector<double> nodes;
+  for (const auto& n : f.node) nodes.insert(nodes.end(), {n[0], n[1], n[2], 0.0});
+  field->buffers.push_back(vec4_buffer("formula_nodes", std::move(nodes)));
   return field;
 }
 

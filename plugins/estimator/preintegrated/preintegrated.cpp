@@ -68,7 +68,8 @@ class Preintegrated : public EstimatorPlugin {
         {"preintegrated_table",
          Element::vec4,
          {table, table->memory().get()},
-         2 * static_cast<std::uint64_t>(request.groups()) * static_cast<std::uint64_t>(table_entries(n))});
+         2 * static_cast<std::uint64_t>(request.groups()) * static_cast<std::uint64_t>(table_entries(n)),
+         nullptr});
   }
 };
 

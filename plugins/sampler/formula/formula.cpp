@@ -7,6 +7,7 @@ using namespace dvrlab;
 
 class Formula : public SamplerPlugin {
  public:
+  AlongRay along_ray() const override { return AlongRay::formula; }
   KernelUnit bind(const Field& field) const override {
     const auto* formula = dynamic_cast<const FormulaField*>(&field);
     if (formula == nullptr) throw InputError("sampler formula: " + field.source + " is no formula");
@@ -20,4 +21,5 @@ class Formula : public SamplerPlugin {
 }  // namespace
 
 DVRLAB_PLUGIN_PLAIN("sampler", "formula", "1.0", Formula,
-                    "evaluates a procedural field at every sample: no grid, value and gradient exact up to fp32", "")
+                    "evaluates a procedural field at every sample: no grid, value and gradient exact up to rounding",
+                    "")

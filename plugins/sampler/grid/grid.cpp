@@ -23,6 +23,7 @@ Element element_of(VoxelType t) {
 
 class Grid : public SamplerPlugin {
  public:
+  AlongRay along_ray() const override { return AlongRay::lattice; }
   KernelUnit bind(const Field& field) const override {
     const auto* grid = dynamic_cast<const GridField*>(&field);
     if (grid == nullptr) throw InputError("sampler grid: " + field.source + " is no voxel grid");
