@@ -1,0 +1,116 @@
+// Agreement of every estimator on hybrid media: the same bits on every backend and instruction set, on real data, lit,
+// grey and RGB, with Dirac terms and opaque ranges.
+#include <cstdio>
+#include <fstream>
+
+#include "tests/support/render.h"
+
+namespace dvrlab::test {
+namespace {
+
+using nlohmann::json;
+
+struct Combination {
+  std::string name;
+  json estimator;
+  std::string data;  // engine, ch2, cranium
+  bool rgb, opaque;
+};
+void PrintTo(const Combination& c, std::ostream* out) { *out << c.name; }
+
+std::string file_of(const std::string& data) {
+  if (data == "engine") return std::string(DVRLAB_SOURCE) + "/data/engine.nrrd";
+  if (data == "ch2") {
+    const std::string file = "/usr/share/mricron/templates/ch2.nii.gz";
+    return std::ifstream(file) ? file : "";
+  }
+  return shared_data("volumes/cranium_ct.nrrd");
+}
+
+/// Values a + b u for u in [0, 1] over the interesting part of the data's range.
+json config_of(const Combination& c) {
+  const double lo = c.data == "cranium" ? -300 : 20, hi = c.data == "cranium" ? 1500 : 240;
+  const auto at = [&](double u) { return lo + (hi - lo) * u; };
+  json model = {{"type", "hybrid"},
+                {"length_unit", "voxel"},
+                {"dl_std", 1},
+                {"dv_std", (hi - lo) * 0.2},
+                {"surface",
+                 {{"opacity", {{at(0.35), 0}, {at(0.45), 0.8}, {at(0.55), 0}}},
+                  {"color", {{at(0), 1, 0.8, 0.6}, {at(1), 0.7, 0.9, 1}}}}},
+                {"scattering",
+                 {{"opacity", {{at(0.05), 0}, {at(0.3), 0.03}, {at(0.9), 0.1}}},
+                  {"color", {{at(0), 0.2, 0.5, 1}, {at(1), 1, 0.6, 0.1}}}}},
+                {"emission", {{"intensity", {{at(0.6), 0}, {at(0.8), 0.05}}}, {"color", {{at(0), 1, 0.3, 0.1}}}}}};
+  if (c.rgb)
+    model["absorption"] = {{"density", {{at(0.1), 0}, {at(0.2), 0.1}, {at(0.3), 0}}},
+                           {"transmission_color", {{at(0), 0.9, 0.5, 0.1}}}};
+  const std::string type = c.estimator.at("type");
+  if (type != "direct" && type != "average")
+    model["surface"]["delta"] = {{{"value", at(0.62)}, {"opacity", 0.5}, {"color", {0.9, 0.9, 0.2}}}};
+  if (c.opaque) model["surface"]["opacity"] = {{at(0.35), 0}, {at(0.45), 0.6}, {at(0.7), 0}, {at(0.7), 1}, {at(1), 1}};
+  if (type == "exact") model["tf"] = "nodes";
+  return {{"data", {{"type", c.data == "ch2" ? "nifti" : "nrrd"}, {"file", file_of(c.data)}}},
+          {"optical_model", model},
+          {"estimator", c.estimator},
+          {"lights",
+           {{{"type", "head"}}, {{"type", "directional"}, {"direction", {1, -0.5, 0.8}}, {"color", {0.6, 0.5, 0.4}}}}},
+          {"illumination", {{{"type", "blinn_phong"}}}},
+          {"camera", {{"type", "perspective"}, {"position", {1.3, -2.2, 1.1}}, {"up", {0, 0, 1}}, {"fov_deg", 34}}},
+          {"sampling", {{"type", "uniform"}, {"step", 1.3}, {"termination", 1e-3}}},
+          {"image", {{"size", {48, 36}}, {"background", {0.1, 0.2, 0.3}}}}};
+}
+
+class AgreementOfEstimators : public testing::TestWithParam<Combination> {};
+
+TEST_P(AgreementOfEstimators, SameBitsOnEveryTarget) {
+  if (file_of(GetParam().data).empty()) GTEST_SKIP() << "not supported: no data (" << GetParam().data << ")";
+  const json config = config_of(GetParam());
+  const FrameResult reference = render(config, targets().front());
+  EXPECT_GT(reference.counters.samples, 0u);
+  double worst = 0;
+  int compared = 0;
+  for (std::size_t t = 1; t < targets().size(); ++t) {
+    try {
+      const FrameResult r = render(config, targets()[t]);
+      worst = std::max(worst, largest_difference(reference.image, r.image));
+      EXPECT_EQ(differing_values(reference.image, r.image), 0u) << targets()[t].name;
+      ++compared;
+    } catch (const NotSupported& reason) {
+      std::printf("%s: not supported: %s\n", targets()[t].name.c_str(), reason.what());
+    }
+  }
+  std::printf("%s: worst difference %g over %d comparisons\n", GetParam().name.c_str(), worst, compared);
+  EXPECT_GT(compared, 0);
+  // Negative control: another step is another image.
+  json other = config;
+  other["sampling"]["step"] = 1.31;
+  EXPECT_GT(differing_values(reference.image, render(other, targets().front()).image), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pairwise, AgreementOfEstimators,
+    testing::Values(
+        Combination{"direct_engine", {{"type", "direct"}, {"total_variation", true}}, "engine", false, false},
+        Combination{"direct_cranium_rgb", {{"type", "direct"}}, "cranium", true, true},
+        Combination{"average_ch2", {{"type", "average"}}, "ch2", false, true},
+        Combination{"average_w5_engine_rgb", {{"type", "average"}, {"rule", "exact_depth"}}, "engine", true, false},
+        Combination{"approximative_cranium", {{"type", "approximative"}}, "cranium", false, false},
+        Combination{"approximative_barycentre_ch2_rgb",
+                    {{"type", "approximative"}, {"shading", "barycentre"}},
+                    "ch2",
+                    true,
+                    true},
+        Combination{"exact_engine", {{"type", "exact"}}, "engine", false, true},
+        Combination{"exact_ch2_rgb", {{"type", "exact"}, {"dirac_shading", "inside"}}, "ch2", true, false},
+        Combination{"preintegrated_engine_rgb", {{"type", "preintegrated"}, {"table_size", 256}}, "engine", true, true},
+        Combination{"preintegrated_cranium", {{"type", "preintegrated"}, {"table_size", 256}}, "cranium", false, false},
+        Combination{"preintegrated_plain_ch2",
+                    {{"type", "preintegrated"}, {"table_size", 256}, {"lookup", "plain"}, {"shading", "constant"}},
+                    "ch2",
+                    false,
+                    true}),
+    [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace dvrlab::test
