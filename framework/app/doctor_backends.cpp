@@ -47,6 +47,7 @@ std::vector<std::string> module_isas(const PluginEntryInfo& entry) {
   for (const fs::directory_entry& e : fs::directory_iterator(entry.folder, ec)) {
     const std::string file = e.path().filename().string();
     const std::size_t dot = file.find('.');
+    if (!file.starts_with(entry.name + ".")) continue;               // what a plugin has beside its kernel
     if (!file.ends_with(".so") || dot + 3 == file.size()) continue;  // <name>.so is the host side
     isas.push_back(file.substr(dot + 1, file.size() - dot - 4));
   }

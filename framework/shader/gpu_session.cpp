@@ -29,14 +29,15 @@ void decode_rows(const std::vector<float>& rows, int first, int count, FrameResu
     std::copy_n(value, 3, image.color.begin() + std::ptrdiff_t(3 * (start + p)));
     std::copy_n(value + 4, 3, image.trans.begin() + std::ptrdiff_t(3 * (start + p)));
     const auto ends = std::bit_cast<std::uint32_t>(value[7]);
-    result.counters.samples += std::bit_cast<std::uint32_t>(value[3]);
-    result.counters.skipped += ends >> 2;
-    if ((ends & 2) != 0) {
+    const auto samples = std::bit_cast<std::uint32_t>(value[3]);
+    if (samples == ComposedShader::cut_march) {
       const auto x = p % std::size_t(image.width), y = std::size_t(first) + p / std::size_t(image.width);
       throw NotSupported("the driver ended the march of pixel (" + std::to_string(x) + ", " + std::to_string(y) +
                          ") before its ray was through, as software GPUs do after 65535 rounds of all loops together; "
                          "use a longer step or the cpu backend");
     }
+    result.counters.samples += samples;
+    result.counters.skipped += ends >> 1;
     result.counters.terminated += ends & 1;
   }
 }

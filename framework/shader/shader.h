@@ -57,10 +57,12 @@ struct PagedBuffer {
 };
 
 /// `output` is a storage buffer of vec4, two per pixel of the band, first row of the band first:
-/// (radiance rgb incl. background, bits of the samples) and (transmittance rgb, bits of 4 * skipped + 2 * cut + terminated).
+/// (radiance rgb incl. background, bits of the samples, cut_march where the driver ended the march early) and
+/// (transmittance rgb, bits of 2 * skipped + terminated).
 struct ComposedShader {
   static constexpr int output_binding = 0;
   static constexpr int workgroup = 8;  // pixels in x and in y
+  static constexpr std::uint32_t cut_march = 0x7f000000;
   ShaderTarget target = ShaderTarget::vulkan;
   bool fast = false;
   std::vector<FloatMode> float_modes;  // empty when fast

@@ -40,8 +40,8 @@ TEST(Registry, FindsTheFrameworksOwnPlugins) {
 
 TEST(Registry, NotFoundNamesKindFoldersNearestAndWhatIsThere) {
   expect_words(why_not({broken + "/good"}, "dirct"),
-               {"estimator.type: ", "no estimator 'dirct'", "did you mean 'direct'?", "there are direct", "twin",
-                broken + "/good/estimator"});
+               {"estimator.type: ", "no estimator 'dirct'", "did you mean 'direct'?",
+                "there are approximative, average, direct", "twin", broken + "/good/estimator"});
 }
 
 TEST(Registry, NotLoadableGivesTheLoadersReason) {

@@ -80,9 +80,7 @@ TEST_P(Definition, SameBitsOnEveryInstructionSet) {
       const Table other(c, r, h, means(isa, 3));
       for (Direction d : {Direction::ascending, Direction::descending})
         for (int g = 0; g < r.groups(); ++g)
-          EXPECT_EQ(std::memcmp(first.buffer(d, g), other.buffer(d, g),
-                                std::size_t(table_entries(c.grid.n)) * 16),
-                    0)
+          EXPECT_EQ(std::memcmp(first.buffer(d, g), other.buffer(d, g), std::size_t(table_entries(c.grid.n)) * 16), 0)
               << isa << " group " << g;
     }
   }

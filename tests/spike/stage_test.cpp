@@ -61,7 +61,8 @@ class StageTexts {
     path_ = name;
     fs::copy(Registry::kernel_folder(), path_, fs::copy_options::recursive);
     fs::copy_file(DVRLAB_SPIKE_SOURCE "/stage/stage.glsl", path_ / "march.glsl", fs::copy_options::overwrite_existing);
-    for (const char* empty : {"none.kernel", "stream.glsl", "steps.glsl"}) std::ofstream(path_ / empty);
+    for (const char* empty : {"none.kernel", "stream.glsl", "steps.glsl", "integrate.kernel"})
+      std::ofstream(path_ / empty);
     fs::copy_file(DVRLAB_SPIKE_SOURCE "/stage/" + stage + ".kernel", path_ / (stage + ".kernel"));
   }
   ~StageTexts() {
