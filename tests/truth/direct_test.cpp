@@ -7,17 +7,6 @@
 namespace dvrlab::test {
 namespace {
 
-using nlohmann::json;
-
-double error_of(const FrameImage& image, const RayIntegral& truth) {
-  double worst = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    worst = std::max(worst, std::abs(double(image.color[c]) - truth.I[c]));
-    worst = std::max(worst, std::abs(double(image.trans[c]) - truth.T[c]));
-  }
-  return worst;
-}
-
 class Truth : public testing::TestWithParam<Target> {
  protected:
   /// Error against `truth`, or NaN with the test marked as skipped when the target is not here.
@@ -25,13 +14,6 @@ class Truth : public testing::TestWithParam<Target> {
     return error_of(render(config, GetParam()).image, truth);
   }
 };
-
-#define SKIP_WHEN_NOT_SUPPORTED(statement)              \
-  try {                                                 \
-    statement;                                          \
-  } catch (const NotSupported& reason) {                \
-    GTEST_SKIP() << "not supported: " << reason.what(); \
-  }
 
 // docs/math B.1 for a homogeneous medium is exact: c (1 - e^(-tau l)), e^(-tau l). Any number of segments.
 TEST_P(Truth, HomogeneousMediumInClosedForm) {
@@ -147,12 +129,7 @@ TEST_P(Truth, PrescribedLightConverges) {
   })
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Truth, testing::ValuesIn(targets()), [](const auto& instance) {
-  std::string name = instance.param.name;
-  for (char& c : name)
-    if (c == ' ' || c == '.') c = '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Targets, Truth, testing::ValuesIn(targets()), target_name);
 
 }  // namespace
 }  // namespace dvrlab::test

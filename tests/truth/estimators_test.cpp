@@ -4,21 +4,15 @@
 #include <cstdio>
 #include <random>
 
-#include "tests/support/golden_case.h"
-#include "tests/support/render.h"
+#include "tests/truth/truth_test.h"
 
 namespace dvrlab::test {
 namespace {
 
-using nlohmann::json;
-
 double digits(const json& text) { return std::stod(text.get<std::string>()); }
 
-class Estimators : public testing::TestWithParam<Target> {
+class Estimators : public GoldenOnTarget {
  protected:
-  void SetUp() override {
-    if (golden().is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-  }
   FrameImage image(json config, const json& estimator) {
     config["estimator"] = estimator;
     if (estimator["type"] != "exact") config["optical_model"].erase("tf");
@@ -32,13 +26,6 @@ class Estimators : public testing::TestWithParam<Target> {
     }
   }
 };
-
-#define SKIP_WHEN_NOT_SUPPORTED(...)                    \
-  try {                                                 \
-    __VA_ARGS__;                                        \
-  } catch (const NotSupported& reason) {                \
-    GTEST_SKIP() << "not supported: " << reason.what(); \
-  }
 
 // The continuous tables of the golden file against 65536 bins: the remaining error is a bin's.
 TEST_P(Estimators, ApproximativeIsGolden) {
@@ -252,12 +239,7 @@ TEST(EstimatorsRefuse, DiracTermsThatSamplesCannotSee) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Estimators, testing::ValuesIn(targets()), [](const auto& instance) {
-  std::string name = instance.param.name;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '.'; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Targets, Estimators, testing::ValuesIn(targets()), target_name);
 
 }  // namespace
 }  // namespace dvrlab::test

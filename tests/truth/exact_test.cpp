@@ -4,42 +4,20 @@
 #include <cstdio>
 #include <random>
 
-#include "tests/support/golden_case.h"
-#include "tests/support/render.h"
+#include "tests/truth/truth_test.h"
 
 namespace dvrlab::test {
 namespace {
 
-using nlohmann::json;
-
-double error_of(const FrameImage& image, const RayIntegral& truth) {
-  double worst = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    worst = std::max(worst, std::abs(double(image.color[c]) - truth.I[c]));
-    worst = std::max(worst, std::abs(double(image.trans[c]) - truth.T[c]));
-  }
-  return worst;
-}
-
 bool straight(const json& g) { return g.at("ray").at("type") == "segment" && g.at("shade").is_null(); }
 
-class Exact : public testing::TestWithParam<Target> {
+class Exact : public GoldenOnTarget {
  protected:
-  void SetUp() override {
-    if (golden().is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-  }
   FrameImage image(json config) {
     if (!config.contains("estimator")) config["estimator"] = {{"type", "exact"}};
     return render(config, GetParam()).image;
   }
 };
-
-#define SKIP_WHEN_NOT_SUPPORTED(...)                    \
-  try {                                                 \
-    __VA_ARGS__;                                        \
-  } catch (const NotSupported& reason) {                \
-    GTEST_SKIP() << "not supported: " << reason.what(); \
-  }
 
 // fp32: 2e-6. Straight segments in one piece; curved rays and lights that vary along the ray in pieces that are short
 // enough, so that the bound still is the arithmetic's.
@@ -236,12 +214,7 @@ TEST(ExactFp64, GoldenRays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Exact, testing::ValuesIn(targets()), [](const auto& instance) {
-  std::string name = instance.param.name;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '.'; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Targets, Exact, testing::ValuesIn(targets()), target_name);
 
 }  // namespace
 }  // namespace dvrlab::test

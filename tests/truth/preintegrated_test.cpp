@@ -3,26 +3,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/support/golden_case.h"
-#include "tests/support/render.h"
+#include "tests/truth/truth_test.h"
 
 namespace dvrlab::test {
 namespace {
 
-using nlohmann::json;
-
-#define SKIP_WHEN_NOT_SUPPORTED(...)                    \
-  try {                                                 \
-    __VA_ARGS__;                                        \
-  } catch (const NotSupported& reason) {                \
-    GTEST_SKIP() << "not supported: " << reason.what(); \
-  }
-
-class Preintegrated : public testing::TestWithParam<Target> {
+class Preintegrated : public GoldenOnTarget {
  protected:
-  void SetUp() override {
-    if (golden().is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
-  }
   FrameImage exact(json config) {
     config["estimator"] = {{"type", "exact"}};
     return render(config, GetParam()).image;
@@ -129,12 +116,7 @@ TEST_P(Preintegrated, SecondOrderInTheTable){SKIP_WHEN_NOT_SUPPORTED({
   EXPECT_LE(a / b, 30);
 })}
 
-INSTANTIATE_TEST_SUITE_P(Targets, Preintegrated, testing::ValuesIn(targets()), [](const auto& instance) {
-  std::string name = instance.param.name;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '.'; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Targets, Preintegrated, testing::ValuesIn(targets()), target_name);
 
 }  // namespace
 }  // namespace dvrlab::test

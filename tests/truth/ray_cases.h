@@ -3,12 +3,9 @@
 
 #include <string>
 
-#include "tests/support/golden_case.h"
-#include "tests/support/render.h"
+#include "tests/truth/truth_test.h"
 
 namespace dvrlab::test {
-
-using nlohmann::json;
 
 /// A ray along x through a formula field, with exact transfer function nodes: the only error is the estimator's.
 inline json ray_config(const json& field, double length, double step) {

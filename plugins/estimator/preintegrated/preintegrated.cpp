@@ -5,21 +5,24 @@
 namespace dvrlab::preintegrated {
 namespace {
 
-constexpr int mean_bins = 4096;  // of the one-dimensional tables that the corrected look-up rests on
-
-constexpr Parameter parameters[] = {{"table_size", ParameterType::integer, "", "1024", "[2,16384]",
-                                     "Values along each side of the table.", Affects::pixels, "", "16"},
-                                    {"lookup", ParameterType::choice, "", "\"corrected\"", "corrected|plain",
-                                     "corrected: depth and mean source from one-dimensional tables, times the table's "
-                                     "ratio (ours, see the page); plain: "
-                                     "radiance and transmittance from the table.",
-                                     Affects::pixels, "", "\"plain\""},
-                                    shading_key,
-                                    {"update", ParameterType::choice, "", "\"full\"", "full|partial",
-                                     "Whether a table that differs from an earlier one of the same run in some of its "
-                                     "values is built again as a whole; "
-                                     "a partial update may differ in the last bit of a float.",
-                                     Affects::nothing}};
+constexpr Parameter parameters[] = {
+    {"table_size", ParameterType::integer, "", "1024", "[2,16384]", "Values along each side of the table.",
+     Affects::pixels, "", "16"},
+    {"lookup", ParameterType::choice, "", "\"corrected\"", "corrected|plain",
+     "corrected: depth and mean source from one-dimensional tables, times the table's "
+     "ratio (ours, see the page); plain: "
+     "radiance and transmittance from the table.",
+     Affects::pixels, "", "\"plain\""},
+    {"depth_table_size", ParameterType::integer, "", "4096", "[2,65536]",
+     "Bins of the one-dimensional tables: depth and mean source of the corrected look-up, depth of segments of another "
+     "length with the plain one.",
+     Affects::pixels, "", "64"},
+    shading_key,
+    {"update", ParameterType::choice, "", "\"full\"", "full|partial",
+     "Whether a table that differs from an earlier one of the same run in some of its "
+     "values is built again as a whole; "
+     "a partial update may differ in the last bit of a float.",
+     Affects::nothing}};
 
 class Preintegrated : public EstimatorPlugin {
  public:
@@ -28,7 +31,7 @@ class Preintegrated : public EstimatorPlugin {
     d.samples = EstimatorDeclaration::Samples::ends;
     // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
     d.cuts_diracs = p.text("lookup") == "corrected";
-    d.mean_bins = mean_bins;
+    d.mean_bins = static_cast<int>(p.integer("depth_table_size"));
     for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
     d.handles |= Terms::rgb_bit | Terms::dirac_bit;
     return d;
