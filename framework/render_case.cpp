@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "framework/image/averaged.h"
 #include "framework/interfaces/error.h"
 #include "framework/report/interrupt.h"
 #include "framework/report/log.h"
@@ -15,7 +16,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 /// What a scene depends on: everything but the backend and what is only said about the case.
 std::string scene_key(const ResolvedCase& c) {
   nlohmann::json key = c.config;
-  for (const char* name : {"backend", "name", "repeat", "warmup", "metrics"}) key.erase(name);
+  for (const char* name : {"backend", "name", "panel", "repeat", "warmup", "metrics"}) key.erase(name);
   return key.dump();
 }
 
@@ -46,6 +47,8 @@ double bytes_of(const FrameJob& job) {
 
 nlohmann::json scene_section(const Scene& s, double seconds) {
   const Field& f = *s.field;
+  nlohmann::json phases = nlohmann::json::object();
+  for (const auto& [phase, spent] : s.times) phases[phase] = spent;
   nlohmann::json section = {
       {"source", f.source},
       {"sha256", f.sha256},
@@ -56,7 +59,7 @@ nlohmann::json scene_section(const Scene& s, double seconds) {
       {"terms", s.medium.terms().text()},
       {"notes", s.notes},
       {"seconds", seconds},
-      {"table_seconds", s.table_seconds}};
+      {"phases", std::move(phases)}};
   if (const auto* grid = dynamic_cast<const GridField*>(&f)) section["dims"] = grid->dims;
   return section;
 }
@@ -130,7 +133,7 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   }
   record.times = phase_statistics(repeats);
   record.counters = frame.counters;
-  return std::move(frame.image);
+  return averaged(std::move(frame.image), scene.rays_per_side);
 }
 
 }  // namespace dvrlab

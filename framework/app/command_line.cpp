@@ -43,6 +43,8 @@ struct Definition {
     config_options(info);
     option(info, "--starter", o.starter, "FILE", "writes a config that renders this data");
     info.add_flag("--force", o.force, "overwrites the file of --starter");
+    option(info, "--plot", o.plot, "FILE",
+           "draws the histogram and, of a config, its transfer functions; .svg or .png");
     option(info, "--bins", o.bins, "N", "bins of the histogram, 1 to 65536; 20 for people and 256 for machines")
         ->check(CLI::Range(1, 65536));
 

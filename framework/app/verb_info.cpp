@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "framework/app/info_report.h"
+#include "framework/app/plot/plot_of.h"
 #include "framework/app/starter.h"
 #include "framework/app/verbs.h"
 #include "framework/image/atomic_file.h"
@@ -34,11 +35,19 @@ int info_verb(const Options& o) {
   const bool data_alone = names_data(o.config, registry);
   if (!data_alone && !o.starter.empty())
     throw InputError("--starter: " + o.config + " is a config already; --starter makes one from a data file");
-  const InfoReport info = make_info(
-      load_data(data_alone ? data_document(o.config, o.set, registry) : load_document(o.config, o.set), registry));
+  if (!o.plot.empty()) check_plot_name(o.plot);
+  if (!o.plot.empty()) require_writable(o.plot);
+  const ConfigDocument document =
+      data_alone ? data_document(o.config, o.set, registry) : load_document(o.config, o.set);
+  const InfoReport info = make_info(load_data(document, registry));
   const int bins = o.bins > 0 ? o.bins : o.json ? bins_for_machines : bins_for_people;
   std::fputs(o.json ? (pretty_json(info_json(info, bins)) + "\n").c_str() : info_text(info, bins).c_str(), stdout);
   if (!o.starter.empty()) write_starter(o, info.data);
+  if (!o.plot.empty()) {
+    std::optional<Experiment> experiment;
+    if (!data_alone) experiment = plan_experiment(document, registry);
+    write_plot(o.plot, plot_of(info, experiment ? &*experiment : nullptr));
+  }
   return 0;
 }
 

@@ -4,6 +4,7 @@
 #include "framework/app/verbs.h"
 #include "framework/interfaces/error.h"
 #include "framework/render_case.h"
+#include "framework/report/log.h"
 #include "framework/report/number_text.h"
 #include "framework/report/pretty_json.h"
 #include "framework/report/text_table.h"
@@ -61,7 +62,12 @@ int probe_verb(const Options& o) {
   CaseRecord record;
   record.plan = &planned;
   const Scene& scene = renderer.scene(planned.resolved, record);
-  const std::vector<ProbeSegment> segments = probe_ray(scene, registry, o.pixel.at(0), o.pixel.at(1));
+  const int n = scene.rays_per_side;
+  if (n > 1)
+    log_line("scene", "image.supersampling: this is one of the " + std::to_string(n * n) +
+                          " rays of the pixel, nearest to its centre");
+  const std::vector<ProbeSegment> segments =
+      probe_ray(scene, registry, o.pixel.at(0) * n + n / 2, o.pixel.at(1) * n + n / 2);
   std::fputs((o.json ? pretty_json(json_of(segments, *scene.field)) + "\n"
                      : table_of(segments, *scene.field, scene.job.precision))
                  .c_str(),

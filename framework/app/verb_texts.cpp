@@ -16,10 +16,13 @@ const std::vector<VerbText>& verb_texts() {
        "what is in a data file: dims, values, orientation, histogram",
        "Reads a data file, a folder of files, or the data section of a config, and says what is in it: grid, type, "
        "spacing, position of the axes in words, range of the physical values with quantiles and a histogram. With "
-       "--starter it also writes a config that renders the data: a commented file to start from.",
+       "--starter it also writes a config that renders the data: a commented file to start from. --plot draws "
+       "the histogram with a logarithmic axis; below it, of a config, every pair of transfer functions as a bar (nodes "
+       "joined by straight lines, the colour with the amount as its alpha) and discrete isosurfaces as spikes.",
        "everything that was found, the histogram as counts",
        {{"dvrlab info data/engine.nrrd", "the grid, its values and their histogram"},
         {"dvrlab info data/engine.nrrd --starter my.json", "writes a config for this data, to be edited"},
+        {"dvrlab info my.json --plot tf.svg", "draws the transfer functions of the config over the histogram"},
         {"dvrlab info data/marschner_lobb.nii.gz --json --bins 64", "the same for programs, 64 bins"}}},
       {"render",
        images,

@@ -23,6 +23,7 @@ struct Options {
   int repeat = 0;          // run; 0: as the config says
   std::string starter;     // info --starter
   bool force = false;      // info
+  std::string plot;        // info --plot
   int bins = 0;            // info; 0: 20 for people, 256 for machines
 };
 

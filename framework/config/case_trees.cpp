@@ -58,7 +58,7 @@ ConfigTree CaseTrees::of_case(const Choice& choice, Problems& problems) const {
 }
 
 std::vector<std::string> CaseTrees::decided_by_reference(const std::string& name) const {
-  std::vector<std::string> decided = {"sampling.termination"};
+  std::vector<std::string> decided = {"sampling.termination", "panel"};
   for (const auto& [key, value] : patch_of(document_, name).items()) decided_paths(key, value, decided);
   return decided;
 }
@@ -79,6 +79,7 @@ ConfigTree CaseTrees::of_reference(const Choice& choice, const std::string& name
   if (!says && terminates(tree)) {
     tree.graft("sampling.termination", 0, document_, source);
   }
+  tree.root.erase("panel");  // a word for the case, not for what it is measured against
   return tree;
 }
 

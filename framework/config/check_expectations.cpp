@@ -93,8 +93,7 @@ void check_one(const Experiment& experiment, const Expectation& e, const std::st
     varied = varied || c.first_variant != k;
     viewed = viewed || std::any_of(c.choices.begin(), c.choices.end(),
                                    [](const AxisChoice& choice) { return choice.key == view_key; });
-    const nlohmann::json* by = e.order_by.empty() ? nullptr : value_at(c.resolved.config, e.order_by);
-    ordered = ordered || (by != nullptr && by->is_number());
+    ordered = ordered || (!e.series.key.empty() && series_place(e.series, c.resolved.config));
   }
   if (!applied) {
     problems.add(where + "no case is meant: none has all the values of `where`");
@@ -105,10 +104,11 @@ void check_one(const Experiment& experiment, const Expectation& e, const std::st
   name_in("reference", e.against, names.references, where, problems);
   if (e.over == Expectation::Over::views && !viewed)
     problems.add(where + "there are no views: the camera of no case that is meant is an orbit whose view is null");
-  if (e.over == Expectation::Over::views && e.order_by == view_key)
+  if (e.over == Expectation::Over::views && e.series.key == view_key)
     problems.add(where + "one value of all views cannot be put in order by camera.view; set `over` to \"cases\"");
-  if (!e.order_by.empty() && !ordered)
-    problems.add(where + "the order's key '" + e.order_by + "' is no number in any case that is meant");
+  if (!e.series.key.empty() && !ordered)
+    problems.add(where + "the key '" + e.series.key + "' " +
+                 (e.series.values.empty() ? "is no number" : "has none of the values") + " in any case that is meant");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "framework/config/expectation.h"
 
+#include <algorithm>
+
 #include "framework/config/check_value.h"
 #include "framework/config/resolve.h"
 
@@ -7,6 +9,26 @@ namespace dvrlab {
 namespace {
 
 std::string number_text(double x) { return nlohmann::json(x).dump(); }
+
+Expectation::Series read_series(const nlohmann::json& j, bool affine) {
+  Expectation::Series s;
+  s.key = j.at("by").get<std::string>();
+  s.affine = affine;
+  if (affine) {
+    s.power = j.value("power", 1.0);
+    s.within = j.at("within").get<double>();
+  } else {
+    s.increasing = j.at("is") == "increasing";
+    s.values = j.value("values", std::vector<nlohmann::json>{});
+  }
+  return s;
+}
+
+std::string series_text(const Expectation::Series& s) {
+  if (!s.affine) return std::string(s.increasing ? " increasing" : " decreasing") + " with " + s.key;
+  return " affine in " + s.key + (s.power == 1 ? "" : "^" + number_text(s.power)) + " to " + number_text(s.within) +
+         " of its range";
+}
 
 Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& problems) {
   const SectionType& type = *find_section_type("expect", "");
@@ -43,19 +65,19 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
     bound = " in [" + number_text(*e.at_least) + ", " + number_text(*e.at_most) + "]";
     ++bounds;
   }
-  if (!p.is_null("order")) {
-    e.order_by = p.json("order")["by"].get<std::string>();
-    e.increasing = p.json("order")["is"] == "increasing";
-    if (const std::string wrong = wrong_path(e.order_by); !wrong.empty()) {
-      problems.add(tree.where(path + ".order.by") + ": " + wrong);
+  for (const char* kind : {"order", "affine"}) {
+    if (p.is_null(kind)) continue;
+    e.series = read_series(p.json(kind), std::string(kind) == "affine");
+    if (const std::string wrong = wrong_path(e.series.key); !wrong.empty()) {
+      problems.add(tree.where(path + "." + kind + ".by") + ": " + wrong);
       return e;
     }
-    bound = std::string(e.increasing ? " increasing" : " decreasing") + " with " + e.order_by;
+    bound = series_text(e.series);
     ++bounds;
   }
   if (bounds != 1) {
     problems.add(tree.where(path) + ": found " + std::to_string(bounds) +
-                 " bounds; must be exactly one of at_least, at_most, between, order");
+                 " bounds; must be exactly one of at_least, at_most, between, order, affine");
   }
   e.text = e.metric + " against " + e.against + bound;
   if (e.over == Expectation::Over::views) e.text = p.text("take") + " over views of " + e.text;
@@ -97,6 +119,15 @@ const nlohmann::json* value_at(const nlohmann::json& resolved_config, const std:
     }
   }
   return node;
+}
+
+std::optional<double> series_place(const Expectation::Series& s, const nlohmann::json& resolved_config) {
+  const nlohmann::json* value = value_at(resolved_config, s.key);
+  if (value == nullptr) return std::nullopt;
+  if (s.values.empty()) return value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
+  const auto at = std::find(s.values.begin(), s.values.end(), *value);
+  if (at == s.values.end()) return std::nullopt;
+  return static_cast<double>(at - s.values.begin());
 }
 
 bool applies(const Expectation& e, const nlohmann::json& resolved_config) {

@@ -151,6 +151,13 @@ class Planner {
     return keys;
   }
 
+  /// True for the keys that vary together with `panel`, whose word names the case.
+  bool named_by_panel(const AxisChoice& c) const {
+    return c.key != "panel" && c.axis < axes_.size() &&
+           std::any_of(axes_[c.axis].keys.begin(), axes_[c.axis].keys.end(),
+                       [](const AxisKey& k) { return k.key == "panel"; });
+  }
+
   void plan_permutation(Choice& choice, std::size_t variants) {
     choose(choice, 0, axes_.size(), true, 0);
     const auto references = plan_references(choice);
@@ -160,7 +167,7 @@ class Planner {
       PlannedCase c;
       std::vector<std::string> words;
       for (ChosenKey& k : chosen(choice)) {
-        words.push_back(k.choice.key + "=" + k.choice.label);
+        if (!named_by_panel(k.choice)) words.push_back(k.choice.key + "=" + k.choice.label);
         c.choices.push_back(std::move(k.choice));
       }
       c.id = unique_id(words.empty() ? "case" : join_words(words, ","));

@@ -6,7 +6,7 @@
 #include "framework/config/views.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
-#include "framework/scene/scene.h"
+#include "framework/scene/check_case.h"
 
 namespace dvrlab {
 namespace {

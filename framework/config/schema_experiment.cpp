@@ -44,7 +44,7 @@ void define_expectation(Schema& definitions) {
   define_branch("expectation", {"", expect.summary, expect.keys}, definitions);
   definitions["expectation"]["properties"]["where"]["$ref"] = "#/definitions/values";
   Schema& e = definitions["complete-expectation"];
-  for (const char* bound : {"at_least", "at_most", "between", "order"}) {
+  for (const char* bound : {"at_least", "at_most", "between", "order", "affine"}) {
     e["oneOf"].push_back({{"required", {bound}}, {"properties", {{bound, {{"not", {{"type", "null"}}}}}}}});
   }
 }

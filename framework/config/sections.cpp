@@ -38,10 +38,24 @@ bool image_size(const Value& v) {
          });
 }
 
+bool only_keys(const Value& v, std::initializer_list<const char*> legal) {
+  return std::all_of(v.items().begin(), v.items().end(), [&](const auto& item) {
+    return std::any_of(legal.begin(), legal.end(), [&](const char* key) { return item.key() == key; });
+  });
+}
+
 bool order(const Value& v) {
   if (v.is_null()) return true;
-  return v.is_object() && v.size() == 2 && v.contains("by") && v["by"].is_string() && v.contains("is") &&
-         (v["is"] == "increasing" || v["is"] == "decreasing");
+  return v.is_object() && only_keys(v, {"by", "is", "values"}) && v.contains("by") && v["by"].is_string() &&
+         v.contains("is") && (v["is"] == "increasing" || v["is"] == "decreasing") &&
+         (!v.contains("values") || (v["values"].is_array() && v["values"].size() > 1));
+}
+
+bool affine(const Value& v) {
+  if (v.is_null()) return true;
+  return v.is_object() && only_keys(v, {"by", "power", "within"}) && v.contains("by") && v["by"].is_string() &&
+         v.contains("within") && v["within"].is_number() && v["within"].get<double>() >= 0 &&
+         (!v.contains("power") || v["power"].is_number());
 }
 
 bool tf_domain_range(const Value& v) { return v == "data" || v == "type" || (null_or_range(v) && !v.is_null()); }
@@ -102,6 +116,7 @@ std::vector<SectionType> declare() {
          pixels, R"({"backend":{"type":"vulkan"}})", "\"fast\""},
         {"seed", integer, "", "0", "[0,4294967295]", "Seed of everything random (jitter).", pixels,
          R"({"sampling":{"jitter":1}})", "7"},
+        {"panel", text, "", "\"\"", "", "What a figure calls the case, e.g. a; for people and for `where`.", nothing},
         {"repeat", integer, "", "1", "[1,1000]", "Number of timed renders of each case.", nothing},
         {"warmup", integer, "", "0", "[0,1000]", "Number of renders before the timed ones.", nothing},
         {"base_folder", text, "", "\"\"", "", "Where relative paths start, itself relative to the config's folder.",
@@ -226,7 +241,14 @@ std::vector<SectionType> declare() {
         {"normal", vector3, "", nullptr, "", "Points to the side that is cut away; any length but 0.", pixels, "",
          "[1,0,0]"},
         {"offset", number, "frame units", "0", "", "Keeps dot(normal, x) <= offset, normal scaled to length 1.", pixels,
-         "", "-0.4"}}},
+         "", "-0.4"},
+        {"clip_normal", choice, "", "\"data\"", "data|plane",
+         "Normal that lights the matter just under the plane: the data's gradient, or the plane's normal (Weiskopf et "
+         "al. 2003).",
+         pixels, "", "\"plane\""},
+        {"clip_depth", number, "voxel", "2", "(0,inf)",
+         "Depth at which the plane's normal has given way to the data's, linearly; voxel: the smallest spacing.",
+         pixels, R"({"clip":{"clip_normal":"plane"}})", "6", "clip_normal=plane"}}},
       {"sampling",
        "uniform",
        "Samples at equal distances from the entry point.",
@@ -251,6 +273,8 @@ std::vector<SectionType> declare() {
        {{"size", json, "pixel", "[512,512]", "[width, height], whole numbers in [1,16384]", "Width and height.", pixels,
          "", "[20,24]", "",
          R"({"type":"array","minItems":2,"maxItems":2,"items":{"type":"integer","minimum":1,"maximum":16384}})"},
+        {"supersampling", integer, "", "1", "[1,16]",
+         "Rays per pixel along each side: a regular grid of n x n rays, whose mean is the pixel.", pixels, "", "2"},
         {"background", vector3, "", "[0,0,0]", "[0,inf)", "Radiance behind the data.", pixels, "", "[0.2,0.5,0.8]"},
         {"space", choice, "", "\"display\"", "display|linear",
          "Display: colours are composited as given; linear: sRGB colours are decoded before and encoded after.", pixels,
@@ -267,7 +291,7 @@ std::vector<SectionType> declare() {
        {{"memory", null_or_bytes}, {"gpu_buffer", null_or_bytes}}},
       {"expect",
        "",
-       "What an experiment's numbers must satisfy; one of at_least, at_most, between, order.",
+       "What an experiment's numbers must satisfy; one of at_least, at_most, between, order, affine.",
        {{"metric", text, "", nullptr, "", "A value of one of the metrics, e.g. psnr or psnr.r.", nothing},
         {"against", text, "", nullptr, "", "A reference's name, or variant: the first variant case.", nothing},
         {"over", choice, "", "\"cases\"", "cases|views",
@@ -282,14 +306,21 @@ std::vector<SectionType> declare() {
          R"({"type":["number","null"]})"},
         {"between", json, "the metric's", "null", "null or [lo, hi]", "Both bounds.", nothing, "", "", "",
          R"({"type":["array","null"],"minItems":2,"maxItems":2,"items":{"type":"number"}})"},
-        {"order", json, "", "null", "null or {\"by\": key path, \"is\": \"increasing\" or \"decreasing\"}",
+        {"order", json, "", "null",
+         "null or {\"by\": key path, \"is\": \"increasing\" or \"decreasing\", \"values\": the key's values in their "
+         "order, where they are no numbers}",
          "How the metric follows an axis.", nothing, "", "", "",
-         R"({"type":["object","null"],"properties":{"by":{"type":"string"},"is":{"enum":["increasing","decreasing"]}},"required":["by","is"],"additionalProperties":false})"}},
+         R"({"type":["object","null"],"properties":{"by":{"type":"string"},"is":{"enum":["increasing","decreasing"]},"values":{"type":"array","minItems":2}},"required":["by","is"],"additionalProperties":false})"},
+        {"affine", json, "", "null",
+         "null or {\"by\": key path, \"power\": p (1 unless given), \"within\": part of the metric's range}",
+         "The metric is a + b key^p along an axis, up to that part of its range.", nothing, "", "", "",
+         R"({"type":["object","null"],"properties":{"by":{"type":"string"},"power":{"type":"number"},"within":{"type":"number","minimum":0}},"required":["by","within"],"additionalProperties":false})"}},
        {{"where", section},
         {"at_least", null_or_number},
         {"at_most", null_or_number},
         {"between", null_or_range_or_equal},
-        {"order", order}}},
+        {"order", order},
+        {"affine", affine}}},
   };
 }
 

@@ -38,6 +38,10 @@ struct FrameImage {
   std::vector<float> color;                        // 3 per pixel: radiance including T * background
   std::vector<float> trans;                        // 3 per pixel: transmittance
   std::vector<double> color64 = {}, trans64 = {};  // the same in fp64; empty for other precisions
+
+  /// Number i of `color` or `trans` in the best precision that there is.
+  double radiance(std::size_t i) const { return color64.empty() ? static_cast<double>(color[i]) : color64[i]; }
+  double transmittance(std::size_t i) const { return trans64.empty() ? static_cast<double>(trans[i]) : trans64[i]; }
 };
 
 struct FrameCounters {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "framework/interfaces/parameter_set.h"
@@ -26,7 +27,10 @@ struct LocalShading {
   double ambient = 1, diffuse = 0, specular = 0;
   int shininess = 1;  // whole number: the power is taken by repeated squaring
   bool two_sided = true;
-  double gradient_eps = 0;   // physical value per world length; below it k = ambient + diffuse, b = 0
+  double gradient_eps = 0;  // physical value per world length; below it k = ambient + diffuse, b = 0
+  /// Gradient magnitudes (physical value per world length, the first below the second) between which light factors go
+  /// from unlit (k = 1, b = 0) to lit: the surface scalar of Kniss et al. 2002. Nothing: lit everywhere.
+  std::optional<std::array<double, 2>> surface_scalar;
   std::vector<Light> light;  // at most 4
   /// prescribed: values at the two ends of the ray, linear in arc length between
   std::array<Vector3, 2> m{}, k{}, b{};

@@ -22,7 +22,8 @@ struct Terms {
   unsigned bits = 0;
   static constexpr unsigned bit(Term t) { return 1u << static_cast<int>(t); }
   static constexpr unsigned dirac_bit = 1u << term_count;
-  static constexpr unsigned rgb_bit = 1u << (term_count + 1);  // extinction differs between channels
+  static constexpr unsigned rgb_bit = 1u << (term_count + 1);       // extinction differs between channels
+  static constexpr unsigned every_column = (1u << term_count) - 1;  // all but Dirac terms, grey
 
   bool has(Term t) const { return (bits & bit(t)) != 0; }
   bool dirac() const { return (bits & dirac_bit) != 0; }

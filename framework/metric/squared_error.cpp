@@ -15,7 +15,7 @@ SquaredError mean_squared_error(const FrameImage& image, const FrameImage& refer
   check_same_size(image, reference);
   SquaredError e;
   for (std::size_t i = 0; i < image.color.size(); ++i) {
-    const double d = static_cast<double>(image.color[i]) - static_cast<double>(reference.color[i]);
+    const double d = image.radiance(i) - reference.radiance(i);
     e.channel[i % 3] += d * d;
   }
   const double pixels = static_cast<double>(image.width) * image.height;

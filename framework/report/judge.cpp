@@ -1,6 +1,7 @@
 #include "framework/report/judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "framework/config/views.h"
@@ -99,40 +100,83 @@ void judge_bound(const Judged& j, const Expectation& e) {
   conclude(j, e, j.value, good ? Verdict::pass : Verdict::fail, j.found);
 }
 
-void judge_order(const std::vector<const Judged*>& group, const Expectation& e) {
-  std::vector<std::pair<double, const Judged*>> ordered;
-  for (const Judged* j : group) {
-    const nlohmann::json* by = value_at(j->records.front()->plan->resolved.config, e.order_by);
-    if (!j->value) {
-      conclude(*j, e, std::nullopt, Verdict::not_supported, j->why_none);
-    } else if (by == nullptr || !by->is_number()) {
-      conclude(*j, e, std::nullopt, Verdict::not_supported, "the case has no number at " + e.order_by);
-    } else {
-      ordered.emplace_back(by->get<double>(), j);
-    }
-  }
-  std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  bool good = ordered.size() > 1;
-  std::string found;
-  for (std::size_t i = 0; i < ordered.size(); ++i) {
-    const double value = *ordered[i].second->value;
-    found += (i == 0 ? "found " : ", ") + text_of(value) + " at " + text_of(ordered[i].first);
-    if (i == 0) continue;
-    const double before = *ordered[i - 1].second->value;
-    good = good && (e.increasing ? value > before : value < before);
-  }
-  if (ordered.size() == 1)
-    return conclude(*ordered[0].second, e, std::nullopt, Verdict::not_supported,
-                    "an order needs two cases, there is one");
-  for (const auto& [by, j] : ordered) conclude(*j, e, std::nullopt, good ? Verdict::pass : Verdict::fail, found);
+/// A member of a series that has a value.
+struct Point {
+  double x, y;
+  const Judged* judged;
+};
+
+bool in_order(const std::vector<Point>& points, bool increasing) {
+  return std::adjacent_find(points.begin(), points.end(), [&](const Point& a, const Point& b) {
+           return increasing ? !(b.y > a.y) : !(b.y < a.y);
+         }) == points.end();
 }
 
-/// What must not differ between those that are put in order: every axis but the one that orders them.
-std::string order_group(const Judged& j, const Expectation& e) {
+/// The largest distance from the line of least squares in x^power, as a part of the range of y.
+double off_the_line(const std::vector<Point>& points, double power) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0, worst = 0;
+  const double n = static_cast<double>(points.size());
+  const auto x_of = [&](const Point& p) { return std::pow(p.x, power); };
+  for (const Point& p : points) {
+    sx += x_of(p) / n;
+    sy += p.y / n;
+  }
+  for (const Point& p : points) {
+    sxx += (x_of(p) - sx) * (x_of(p) - sx);
+    sxy += (x_of(p) - sx) * (p.y - sy);
+  }
+  const double slope = sxy / sxx;
+  for (const Point& p : points) worst = std::max(worst, std::abs(p.y - sy - slope * (x_of(p) - sx)));
+  const auto [lo, hi] =
+      std::minmax_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  return worst / (hi->y - lo->y);
+}
+
+void judge_series(const std::vector<const Judged*>& group, const Expectation& e) {
+  const Expectation::Series& s = e.series;
+  std::vector<Point> points;
+  for (const Judged* j : group) {
+    const std::optional<double> x = series_place(s, j->records.front()->plan->resolved.config);
+    if (!x && !s.values.empty()) continue;  // the list says which cases are meant
+    if (!j->value) {
+      conclude(*j, e, std::nullopt, Verdict::not_supported, j->why_none);
+    } else if (!x) {
+      conclude(*j, e, std::nullopt, Verdict::not_supported, "the case has no number at " + s.key);
+    } else {
+      points.push_back({*x, *j->value, j});
+    }
+  }
+  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+  const std::size_t least = s.affine ? 3 : 2;
+  std::string found;
+  for (const Point& p : points)
+    found += (found.empty() ? "found " : ", ") + text_of(p.y) + " at " +
+             (s.values.empty() ? text_of(p.x) : s.values[static_cast<std::size_t>(p.x)].dump());
+  bool good = points.size() >= least;
+  if (good && s.affine) {
+    const double off = off_the_line(points, s.power);
+    found += "; off the line by " + text_of(off) + " of the range";
+    good = off <= s.within;  // NaN is never good
+  } else if (good) {
+    good = in_order(points, s.increasing);
+  }
+  for (const Point& p : points) {
+    if (points.size() < least) {
+      conclude(*p.judged, e, std::nullopt, Verdict::not_supported,
+               (s.affine ? "a line needs three cases, there are " : "an order needs two cases, there are ") +
+                   std::to_string(points.size()));
+    } else {
+      conclude(*p.judged, e, std::nullopt, good ? Verdict::pass : Verdict::fail, found);
+    }
+  }
+}
+
+/// What must not differ between the members of a series: every axis but the one that it follows.
+std::string series_group(const Judged& j, const Expectation& e) {
   PlannedCase c;
   c.choices = j.records.front()->plan->choices;
   if (e.over == Expectation::Over::views) std::erase_if(c.choices, [](const auto& x) { return x.key == view_key; });
-  return group_without(c, e.order_by);
+  return group_without(c, e.series.key);
 }
 
 }  // namespace
@@ -142,13 +186,13 @@ void judge_expectations(const Experiment& experiment, std::vector<CaseRecord>& r
     const std::vector<Judged> all = judged_by(e, records);
     std::map<std::string, std::vector<const Judged*>> groups;
     for (const Judged& j : all) {
-      if (e.order_by.empty()) {
+      if (e.series.key.empty()) {
         judge_bound(j, e);
       } else {
-        groups[order_group(j, e)].push_back(&j);
+        groups[series_group(j, e)].push_back(&j);
       }
     }
-    for (const auto& [name, group] : groups) judge_order(group, e);
+    for (const auto& [name, group] : groups) judge_series(group, e);
   }
 }
 

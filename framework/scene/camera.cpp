@@ -118,7 +118,7 @@ void add_camera(const Section& camera, const Field& field, int width, int height
 
 void add_clipping(const std::vector<Section>& planes, const Field& field, KernelUnit& unit) {
   const Frame frame(field);
-  std::vector<double> plane;
+  std::vector<double> plane, lit;
   for (const Section& s : planes) {
     const ParameterSet& p = s.parameters;
     const Vector3 n = unit_vector(p.vector3("normal"), p.path_of("normal") + ": is 0; give a direction");
@@ -126,9 +126,13 @@ void add_clipping(const std::vector<Section>& planes, const Field& field, Kernel
     const double origin = p.text("frame") == "data" ? 0.0 : dot(n, frame.centre());
     const double offset = p.number("offset") * frame.unit(p) - origin;
     plane.insert(plane.end(), {n[0], n[1], n[2], offset});
+    if (p.text("clip_normal") != "plane") continue;
+    lit.insert(lit.end(), {n[0], n[1], n[2], offset, 1.0 / (p.number("clip_depth") * field.voxel), 0, 0, 0});
   }
   unit.uniforms.push_back(Uniform::constant_integer("frame_planes", int(planes.size())));
   unit.buffers.push_back(vec4_buffer("frame_plane", std::move(plane)));
+  unit.uniforms.push_back(Uniform::constant_integer("frame_clip_normals", int(lit.size() / 8)));
+  unit.buffers.push_back(vec4_buffer("frame_clip_normal", std::move(lit)));
 }
 
 }  // namespace dvrlab

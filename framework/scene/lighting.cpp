@@ -63,6 +63,7 @@ LocalShading local_shading(const ResolvedCase& c, const Registry& registry, cons
 
 void add_shading(const LocalShading& s, double value_per_stored, KernelUnit& unit) {
   const double eps = s.gradient_eps / value_per_stored;
+  const auto [unlit, lit] = s.surface_scalar.value_or(std::array{0.0, 1.0});
   const auto vec = [](const char* name, const Vector3& v) { return Uniform::vector(name, v[0], v[1], v[2]); };
   unit.uniforms.insert(
       unit.uniforms.end(),
@@ -72,6 +73,9 @@ void add_shading(const LocalShading& s, double value_per_stored, KernelUnit& uni
        Uniform::constant_integer("frame_two_sided", s.two_sided ? 1 : 0),
        // Not below what fp32 can hold: a zero gradient has no normal either way.
        Uniform::real("frame_gradient_eps2", std::max(eps * eps, 1e-36)),
+       Uniform::constant_integer("frame_surface_scalar", s.surface_scalar ? 1 : 0),
+       Uniform::real("frame_unlit_gradient", unlit / value_per_stored),
+       Uniform::real("frame_lit_scale", value_per_stored / (lit - unlit)),
        Uniform::constant_integer("frame_lights", int(s.light.size())), vec("frame_m0", s.m[0]), vec("frame_m1", s.m[1]),
        vec("frame_k0", s.k[0]), vec("frame_k1", s.k[1]), vec("frame_b0", s.b[0]), vec("frame_b1", s.b[1])});
   std::vector<double> lights;

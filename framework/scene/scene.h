@@ -3,9 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "framework/config/problems.h"
 #include "framework/config/resolved_case.h"
 #include "framework/interfaces/backend.h"
 #include "framework/interfaces/field.h"
@@ -19,9 +19,10 @@ struct Scene {
   std::shared_ptr<const Field> field;
   Medium medium;  // in stored units
   FrameJob job;
-  double step = 0;                 // world units
-  double table_seconds = 0;        // the estimator's own tables
-  std::vector<std::string> notes;  // conversions, caps: what the log and the result file say
+  double step = 0;        // world units
+  int rays_per_side = 1;  // rays per pixel along x and along y: the job's image is so much larger
+  std::vector<std::pair<std::string, double>> times;  // seconds per phase of the build: medium, tables
+  std::vector<std::string> notes;                     // conversions, caps: what the log and the result file say
 };
 
 /// Loads the case's data (through a cache by resolved data section, so that an experiment loads each file once).
@@ -35,9 +36,7 @@ class FieldCache {
   std::vector<std::pair<std::string, std::shared_ptr<const Field>>> entries_;
 };
 
-/// Everything that can be refused without reading the data: an estimator that cannot integrate a term of the
-/// model, a direction that is 0, ... Each reason is added to `problems` and begins with its key.
-void check_case(const ResolvedCase& c, const Registry& registry, Problems& problems);
+Precision precision_of(const ResolvedCase& c);
 
 /// States what build_scene will allocate beside the field: the parts of the framework, sampler, estimator and passes.
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory);

@@ -15,6 +15,8 @@ struct Combination {
   json estimator;
   std::string data;  // engine, ch2, cranium
   bool rgb, opaque;
+  std::string model = "hybrid";       // data_space, shaded, unshaded (absorption_emission)
+  std::string light = "blinn_phong";  // surface_scalar, clip_normal (of a clipping plane), none
 };
 void PrintTo(const Combination& c, std::ostream* out) { *out << c.name; }
 
@@ -49,13 +51,32 @@ json config_of(const Combination& c) {
   if (type != "direct" && type != "average")
     model["surface"]["delta"] = {{{"value", at(0.62)}, {"opacity", 0.5}, {"color", {0.9, 0.9, 0.2}}}};
   if (c.opaque) model["surface"]["opacity"] = {{at(0.35), 0}, {at(0.45), 0.6}, {at(0.7), 0}, {at(0.7), 1}, {at(1), 1}};
+  if (c.model == "data_space") {
+    for (const char* key : {"dl_std", "scattering", "absorption", "emission"}) model.erase(key);
+    model["type"] = "data_space";
+  }
+  if (c.model == "shaded" || c.model == "unshaded")
+    model = {{"type", "absorption_emission"},
+             {"shaded", c.model == "shaded"},
+             {"length_unit", "voxel"},
+             {"opacity", {{at(0.05), 0}, {at(0.3), 0.03}, {at(0.7), 0.3}, {at(0.9), c.opaque ? 1.0 : 0.5}}},
+             {"color", {{at(0), 0.2, 0.5, 1}, {at(1), 1, 0.6, 0.1}}}};
   if (type == "exact") model["tf"] = "nodes";
+  json illumination = json::array({{{"type", "blinn_phong"}}});
+  if (c.light == "none") illumination = json::array();
+  if (c.light == "surface_scalar")
+    illumination = json::array({{{"type", "surface_scalar"}, {"lit_gradient", (hi - lo) * 0.05}}});
+  json clip = json::array();
+  if (c.light == "clip_normal")
+    clip = json::array({{{"frame", "data"}, {"normal", {1, -1, 0.5}}, {"clip_normal", "plane"}, {"clip_depth", 6}},
+                        {{"frame", "data"}, {"normal", {0, 0, 1}}, {"offset", 0.3}}});
   return {{"data", {{"type", c.data == "ch2" ? "nifti" : "nrrd"}, {"file", file_of(c.data)}}},
           {"optical_model", model},
           {"estimator", c.estimator},
           {"lights",
            {{{"type", "head"}}, {{"type", "directional"}, {"direction", {1, -0.5, 0.8}}, {"color", {0.6, 0.5, 0.4}}}}},
-          {"illumination", {{{"type", "blinn_phong"}}}},
+          {"illumination", illumination},
+          {"clip", clip},
           {"camera", {{"type", "perspective"}, {"position", {1.3, -2.2, 1.1}}, {"up", {0, 0, 1}}, {"fov_deg", 34}}},
           {"sampling", {{"type", "uniform"}, {"step", 1.3}, {"termination", 1e-3}}},
           {"image", {{"size", {48, 36}}, {"background", {0.1, 0.2, 0.3}}}}};
@@ -109,7 +130,51 @@ INSTANTIATE_TEST_SUITE_P(
                     {{"type", "preintegrated"}, {"table_size", 256}, {"lookup", "plain"}, {"shading", "constant"}},
                     "ch2",
                     false,
-                    true}),
+                    true},
+        Combination{"direct_ch2_data_space", {{"type", "direct"}}, "ch2", false, false, "data_space", "surface_scalar"},
+        Combination{"direct_engine_shaded", {{"type", "direct"}}, "engine", false, true, "shaded", "clip_normal"},
+        Combination{"average_cranium_unshaded", {{"type", "average"}}, "cranium", false, false, "unshaded", "none"},
+        Combination{
+            "average_engine_data_space", {{"type", "average"}}, "engine", false, true, "data_space", "clip_normal"},
+        Combination{"approximative_engine_shaded",
+                    {{"type", "approximative"}},
+                    "engine",
+                    false,
+                    false,
+                    "shaded",
+                    "surface_scalar"},
+        Combination{"approximative_cranium_data_space",
+                    {{"type", "approximative"}, {"shading", "barycentre"}},
+                    "cranium",
+                    false,
+                    true,
+                    "data_space",
+                    "none"},
+        Combination{"exact_cranium_shaded", {{"type", "exact"}}, "cranium", false, false, "shaded", "clip_normal"},
+        Combination{
+            "exact_engine_data_space", {{"type", "exact"}}, "engine", false, false, "data_space", "surface_scalar"},
+        Combination{"exact_ch2_unshaded", {{"type", "exact"}}, "ch2", false, true, "unshaded", "none"},
+        Combination{"preintegrated_ch2_shaded",
+                    {{"type", "preintegrated"}, {"table_size", 256}},
+                    "ch2",
+                    false,
+                    false,
+                    "shaded",
+                    "surface_scalar"},
+        Combination{"preintegrated_engine_data_space",
+                    {{"type", "preintegrated"}, {"table_size", 256}},
+                    "engine",
+                    false,
+                    false,
+                    "data_space",
+                    "clip_normal"},
+        Combination{"preintegrated_cranium_unshaded",
+                    {{"type", "preintegrated"}, {"table_size", 256}, {"lookup", "plain"}},
+                    "cranium",
+                    false,
+                    true,
+                    "unshaded",
+                    "none"}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

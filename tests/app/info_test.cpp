@@ -72,6 +72,37 @@ TEST_F(Info, Engine) {
   expect_words(run("dvrlab info data/engine.nrrd").out, {"256 x 256 x 128 grid points", "share of voxels", "####"});
 }
 
+// The plot of data is its histogram; that of a config has its transfer functions too. Equal input, equal bytes.
+TEST_F(Info, PlotsShowHistogramAndTransferFunctions) {
+  const auto drawn = [&](const std::string& arguments, const std::string& file) {
+    EXPECT_EQ(run("dvrlab info " + arguments + " --plot " + file).code, 0);
+    return run("cat " + file).out;
+  };
+  const std::string alone = drawn("data/fuel.nrrd", "alone.svg");
+  expect_words(alone, {"<svg", "</svg>"});
+  EXPECT_EQ(alone, drawn("data/fuel.nrrd", "again.svg"));
+  const std::string example = "plugins/optical_model/hybrid/hybrid.example.json";
+  const std::string config = drawn(example, "config.svg");
+  EXPECT_EQ(config, drawn(example, "config_again.svg"));
+  EXPECT_NE(config, drawn(example + " --set optical_model.scattering.color='[[0,1,0,0]]'", "red.svg"));
+  EXPECT_NE(config,
+            drawn(example + " --set optical_model.surface.delta='[{\"value\":0.5,\"opacity\":0.4}]'", "spike.svg"));
+  EXPECT_EQ(config, drawn(example + " --set optical_model.dl_std=7", "same_bars.svg")) << "no bar depends on dl_std";
+  const std::string png = drawn(example, "config.png");
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  // one bar per pair: a model without transfer functions of its own leaves the histogram
+  const auto height = [&](const std::string& svg) {
+    const std::size_t at = svg.find("height=\"") + 8;
+    return std::stod(svg.substr(at));
+  };
+  EXPECT_GT(height(config), height(alone) + 3 * 40);
+}
+
+TEST_F(Info, PlotsThatCannotBeDrawn) {
+  expect_one_error(run("dvrlab info data/fuel.nrrd --plot x.jpg"), 2, {"--plot x.jpg", ".svg or .png"});
+  expect_one_error(run("dvrlab info data/fuel.nrrd --plot nodir/x.svg"), 2, {"nodir/x.svg", "there is no folder"});
+}
+
 TEST_F(Info, AxesInWords) {
   write("lps.nrrd", small_nrrd("space: left-posterior-superior\n"
                                "space directions: (2,0,0) (0,0,3) (0,-1,0)\nspace origin: (10,20,30)\n"));

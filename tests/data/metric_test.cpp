@@ -52,6 +52,70 @@ TEST(Psnr, ByHand) {
   EXPECT_EQ(value(compare("psnr", reference, reference), "psnr"), std::numeric_limits<double>::infinity());
 }
 
+TEST(Bias, ByHand) {
+  const Values v = compare("bias", image, reference);
+  EXPECT_EQ(v.front().first, "bias");
+  EXPECT_NEAR(value(v, "bias.r"), (0.1 - 0.2) / 2, 1e-7);
+  EXPECT_NEAR(value(v, "bias.g"), 0.3 / 2, 1e-7);
+  EXPECT_NEAR(value(v, "bias"), 0.2 / 6, 1e-7);
+  EXPECT_NEAR(value(v, "bias.depth"), (std::log(0.25) - std::log(0.75)) / 6, 1e-7);
+  EXPECT_EQ(value(v, "bias.opaque"), 0);
+  FrameImage opaque = image;
+  opaque.trans[5] = 0;  // has no finite depth: left out
+  EXPECT_EQ(value(compare("bias", opaque, reference), "bias.depth"), 0);
+  EXPECT_NEAR(value(compare("bias", opaque, reference), "bias.opaque"), 1.0 / 6, 1e-12);
+}
+
+TEST(Transmittance, RiseAndFall) {
+  const Values v = compare("transmittance", image, reference), back = compare("transmittance", reference, image);
+  EXPECT_EQ(v.front().first, "transmittance");
+  EXPECT_EQ(value(v, "transmittance"), 0.5);
+  EXPECT_EQ(value(v, "transmittance.rise"), 0.5);
+  EXPECT_EQ(value(v, "transmittance.fall"), 0);
+  EXPECT_EQ(value(back, "transmittance.rise"), 0);
+  EXPECT_EQ(value(back, "transmittance.fall"), 0.5);
+  EXPECT_NEAR(value(v, "transmittance.mean"), 0.5 / 6, 1e-12);
+  FrameImage spoilt = image;
+  spoilt.trans[2] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(value(compare("transmittance", spoilt, reference), "transmittance")));
+}
+
+// A flat half, and a half with a checkerboard of the reference's: only the flat windows count.
+TEST(RegionVariance, CountsHomogeneousWindowsOnly) {
+  const int n = 12;
+  FrameImage flat{n, n, std::vector<float>(3 * n * n, 0.5f), std::vector<float>(3 * n * n, 0.0f)}, noisy = flat;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t i = std::size_t(3 * (y * n + x) + c);
+        if (x >= n / 2) flat.color[i] = (x + y) % 2 == 0 ? 0.2f : 0.8f;
+        noisy.color[i] = (x + y) % 2 == 0 ? 0.4f : 0.6f;
+      }
+  const nlohmann::json keys = {{"radius", 1}, {"threshold", 0.01}, {"opacity", 0.5}};
+  const Values v = compare("region_variance", noisy, flat, keys);
+  // nine pixels, five of one kind: mean m = +-0.1 / 9, mean square 0.01
+  EXPECT_NEAR(value(v, "region_variance"), 0.01 - 0.01 / 81, 1e-7);
+  EXPECT_NEAR(value(v, "region_variance.reference"), 0, 1e-12);
+  EXPECT_NEAR(value(v, "region_variance.area"), 4.0 * 10 / (n * n), 1e-12);
+  EXPECT_NEAR(value(v, "region_variance.relative"), (0.01 - 0.01 / 81) / (0.25 + 0.01 / 81), 1e-6);
+  FrameImage background = flat;
+  for (float& t : background.trans) t = 1;
+  EXPECT_TRUE(std::isnan(value(compare("region_variance", noisy, background, keys), "region_variance")));
+}
+
+// Images in fp64 are measured in fp64.
+TEST(Metrics, TakeTheBestPrecision) {
+  FrameImage a = reference, b = reference;
+  for (FrameImage* f : {&a, &b}) {
+    f->color64.assign(6, 0.5);
+    f->trans64.assign(6, 0.25);
+  }
+  a.color64[1] += 1e-12;
+  EXPECT_NEAR(value(compare("max_abs", a, b), "max_abs"), 1e-12, 1e-15);
+  EXPECT_NEAR(value(compare("rmse", a, b), "rmse"), 1e-12 / std::sqrt(6), 1e-15);
+  EXPECT_NEAR(value(compare("psnr", a, b), "psnr"), 240 + 10 * std::log10(6), 1e-3);
+}
+
 TEST(MaxAbs, FindsThePixel) {
   const Values v = compare("max_abs", image, reference);
   EXPECT_EQ(v.front().first, "max_abs");

@@ -1,6 +1,7 @@
 // A whole run: results tree, verdicts, exit codes; then the same through the command line.
 #include "tests/front/run_test.h"
 
+#include "framework/image/averaged.h"
 #include "framework/image/image_io.h"
 #include "framework/metric/measure.h"
 #include "framework/report/judge.h"
@@ -47,6 +48,40 @@ TEST_F(Run, ExpectationsDecideTheExitCode) {
   expect_words(summary_text(failed), {"fail: expected rmse against fine <= 0", "found 0."});
   EXPECT_EQ(exit_code(run(small_config(with + R"("order": {"by": "sampling.step", "is": "increasing"}}])"))), 0);
   EXPECT_EQ(exit_code(run(small_config(with + R"("order": {"by": "sampling.step", "is": "decreasing"}}])"))), 1);
+}
+
+// An order of words, over the cases that the list names; a curve that is a straight line in a power of a key.
+TEST_F(Run, OrdersOfValuesAndLines) {
+  const std::string words = R"(, "metrics": ["rmse"], "reference": {"fine": {"sampling.step": 0.0625}},
+    "axes": {"permutation": {"zip": [{"panel": ["a", "b", "c"], "sampling.step": [2, 1, 0.5]}]}},
+    "expect": [{"metric": "rmse", "against": "fine", "order": {"by": "panel", )";
+  EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["a", "b", "c"], "is": "decreasing"}}])"))), 0);
+  EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["a", "c"], "is": "decreasing"}}])"))), 0);
+  EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["c", "a"], "is": "decreasing"}}])"))), 1);
+  EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["c", "d"], "is": "decreasing"}}])"))), 3);
+  EXPECT_TRUE(fs::exists(folder_ + "/out/small/cases/panel=a/case.json")) << "a panel names its case";
+
+  // The depth of a medium is proportional to 1 / dl_std.
+  const std::string line = R"(, "metrics": ["bias"], "reference": {"thin": {"optical_model.dl_std": 1000}},
+    "axes": {"permutation": {"optical_model.dl_std": [1, 2, 5, 11]}}, "expect": [{"metric": "bias.depth",
+    "against": "thin", "affine": {"by": "optical_model.dl_std", )";
+  const std::vector<std::string> opacity = {"optical_model.extinction=null",
+                                            "optical_model.opacity=[[0,0],[0.3,0.2],[1,0.6]]"};
+  EXPECT_EQ(exit_code(run(small_config(line + R"("power": -1, "within": 1e-4}}])"), opacity)), 0);
+  EXPECT_EQ(exit_code(run(small_config(line + R"("power": -2, "within": 1e-2}}])"), opacity)), 1);
+  EXPECT_EQ(exit_code(run(small_config(line + R"("within": 1e-2}}])"), opacity)), 1);
+}
+
+// Several rays per pixel: the mean of the larger image.
+TEST_F(Run, SupersamplingAveragesRays) {
+  run(small_config(""), {"image.supersampling=3"});
+  const FrameImage fine = read_exr(folder_ + "/out/small/cases/case/image.exr");
+  run(small_config(""),
+      {"image.size=[" + std::to_string(3 * fine.width) + "," + std::to_string(3 * fine.height) + "]"});
+  const FrameImage large = read_exr(folder_ + "/out/small/cases/case/image.exr");
+  EXPECT_EQ(compare_bits(averaged(large, 3), fine).different, 0u);
+  run(small_config(""));
+  EXPECT_GT(compare_bits(read_exr(folder_ + "/out/small/cases/case/image.exr"), fine).different, 0u);
 }
 
 TEST_F(Run, ExpectationWithoutAMeasuredValueIsNoSuccess) {

@@ -4,10 +4,18 @@
 #include <functional>
 #include <string>
 
+#include "plugins/estimator/preintegrated/definition.h"
 #include "plugins/estimator/preintegrated/table_build.h"
-#include "tests/preintegration/definition.h"
 
 namespace dvrlab::test {
+
+using preintegrated::approximate_entry;
+using preintegrated::Approximation;
+using preintegrated::Cells;
+using preintegrated::defined_entry;
+using preintegrated::Entry;
+using preintegrated::SourceColumn;
+using preintegrated::TableRequest;
 
 /// One channel of the entry from grid value i to grid value j.
 using EntryOf = std::function<double(int i, int j, int output)>;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "framework/config/experiment.h"
+#include "framework/image/averaged.h"
 
 namespace dvrlab::test {
 
@@ -52,6 +53,7 @@ FrameResult render(const nlohmann::json& config, const Target& target, const std
   if (alter) alter(scene.job);
   FrameResult result;
   session->render(scene.job, result);
+  result.image = averaged(std::move(result.image), scene.rays_per_side);
   return result;
 }
 

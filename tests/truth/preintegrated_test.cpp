@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/truth/truth_test.h"
+#include "tests/truth/ray_cases.h"
 
 namespace dvrlab::test {
 namespace {
@@ -115,6 +115,48 @@ TEST_P(Preintegrated, SecondOrderInTheTable){SKIP_WHEN_NOT_SUPPORTED({
   EXPECT_GE(a / b, 8);
   EXPECT_LE(a / b, 30);
 })}
+
+// The printed equation 22 counts surfaces negative where the value falls: light comes out that never went in. The
+// published slide is right where little is removed from the window.
+TEST_P(Preintegrated, PublishedVariantsShowTheirFaults) {
+  json g = golden_case("kraus_short");
+  g["ray"] = {{"type", "segment"}, {"v0", 0.1}, {"v1", 0.9}, {"dl", 1}};
+  json falling = g;
+  std::swap(falling["ray"]["v0"], falling["ray"]["v1"]);
+  for (const char* variant : {"corrected", "published", "published_slide"}) {
+    const json estimator = {{"type", "preintegrated"}, {"lookup", "plain"}, {"table_size", 64}, {"variant", variant}};
+    SKIP_WHEN_NOT_SUPPORTED({
+      json up = golden_config(g, 1), down = golden_config(falling, 1);
+      up["estimator"] = estimator;
+      down["estimator"] = estimator;
+      const double T_up = render(up, GetParam()).image.trans[0], T_down = render(down, GetParam()).image.trans[0];
+      if (variant == std::string("published")) {
+        EXPECT_GT(T_down, 1);
+        EXPECT_NEAR(T_down, 1 / T_up, 0.1 / T_up);
+      } else if (variant == std::string("corrected")) {
+        EXPECT_NEAR(T_down, T_up, 0.1 * T_up);  // of a plain table of 64 values
+      }
+    })
+  }
+}
+
+TEST(PreintegratedRefuses, PublishedVariantsElsewhere) {
+  const auto refusal = [](const json& estimator) {
+    json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
+    config["optical_model"] = model({{0, 1}}, {{0, 1, 1, 1}});
+    config["estimator"] = estimator;
+    config["estimator"]["type"] = "preintegrated";
+    try {
+      render(config, targets().front());
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal({{"variant", "published"}}).find("set lookup to \"plain\""), std::string::npos);
+  EXPECT_NE(refusal({{"variant", "published"}, {"lookup", "plain"}}).find("at most 512"), std::string::npos);
+  EXPECT_EQ(refusal({{"variant", "published"}, {"lookup", "plain"}, {"table_size", 32}}), "");
+}
 
 INSTANTIATE_TEST_SUITE_P(Targets, Preintegrated, testing::ValuesIn(targets()), target_name);
 

@@ -21,8 +21,7 @@ class Approximative : public EstimatorPlugin {
     d.samples = EstimatorDeclaration::Samples::ends;
     d.mean_bins = static_cast<int>(p.integer("table_size"));
     d.barycentre = p.text("shading") == "barycentre";
-    for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
-    d.handles |= Terms::rgb_bit | Terms::dirac_bit;
+    d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;
   }
 };

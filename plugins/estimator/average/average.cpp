@@ -22,8 +22,7 @@ class Average : public EstimatorPlugin {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
     if (p.text("rule") == "exact_depth") d.mean_bins = static_cast<int>(p.integer("table_size"));
-    for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
-    d.handles |= Terms::rgb_bit;
+    d.handles = Terms::every_column | Terms::rgb_bit;
     return d;
   }
   double dirac_pulse(const ParameterSet& p) const override { return p.number("approximate_dirac"); }

@@ -19,8 +19,7 @@ class Direct : public EstimatorPlugin {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::centre;
     d.neighbours = true;
-    for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
-    d.handles |= Terms::rgb_bit;
+    d.handles = Terms::every_column | Terms::rgb_bit;
     return d;
   }
   double dirac_pulse(const ParameterSet& p) const override { return p.number("approximate_dirac"); }

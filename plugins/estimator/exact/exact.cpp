@@ -45,8 +45,7 @@ class Exact : public EstimatorPlugin {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
     d.needs_nodes = true;
-    for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
-    d.handles |= Terms::rgb_bit | Terms::dirac_bit;
+    d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;
   }
 

@@ -1,5 +1,9 @@
 // Full pre-integration: two-dimensional tables of all segments of the nominal length, and how they are looked up.
+#include <string>
+
+#include "framework/interfaces/error.h"
 #include "framework/interfaces/segment_keys.h"
+#include "plugins/estimator/preintegrated/published.h"
 #include "plugins/estimator/preintegrated/tables_of.h"
 
 namespace dvrlab::preintegrated {
@@ -17,6 +21,10 @@ constexpr Parameter parameters[] = {
      "Bins of the one-dimensional tables: depth and mean source of the corrected look-up, depth of segments of another "
      "length with the plain one.",
      Affects::pixels, "", "64"},
+    {"variant", ParameterType::choice, "", "\"corrected\"", "corrected|published|published_slide",
+     "published: the entries of equation 22 of Yang et al. 2012 as printed; published_slide: those of the window slide "
+     "of Lum et al. 2004. Both only show what the corrections are for, with the plain look-up.",
+     Affects::pixels, R"({"estimator":{"lookup":"plain","table_size":64}})", "\"published\""},
     shading_key,
     {"update", ParameterType::choice, "", "\"full\"", "full|partial",
      "Whether a table that differs from an earlier one of the same run in some of its "
@@ -24,16 +32,27 @@ constexpr Parameter parameters[] = {
      "a partial update may differ in the last bit of a float.",
      Affects::nothing}};
 
+constexpr long long most_published_values = 512;
+
 class Preintegrated : public EstimatorPlugin {
  public:
+  void check(const ParameterSet& p) const override {
+    if (p.text("variant") == "corrected") return;
+    if (p.text("lookup") != "plain")
+      throw InputError(p.path_of("variant") + ": \"" + p.text("variant") +
+                       "\" fills a table of radiance and transmittance; set lookup to \"plain\"");
+    if (p.integer("table_size") > most_published_values)
+      throw InputError(p.path_of("table_size") + ": with variant \"" + p.text("variant") + "\" at most " +
+                       std::to_string(most_published_values) + ", for a table is integrated cell by cell");
+  }
+
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
     // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
     d.cuts_diracs = p.text("lookup") == "corrected";
     d.mean_bins = static_cast<int>(p.integer("depth_table_size"));
-    for (int t = 0; t < term_count; ++t) d.handles |= Terms::bit(static_cast<Term>(t));
-    d.handles |= Terms::rgb_bit | Terms::dirac_bit;
+    d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;
   }
 
@@ -41,8 +60,8 @@ class Preintegrated : public EstimatorPlugin {
     Groups unused;
     const int n = static_cast<int>(p.integer("table_size"));
     const TableRequest most = request_of(terms, true, true, p.text("lookup") == "plain", unused);
-    // Two tables are kept, and every thread of a build has its own memory.
-    return 2 * Table::bytes(n, most) + (std::uint64_t{64} << 20);
+    // Two tables are kept, beside them a published one, and every thread of a build has its own memory.
+    return (p.text("variant") == "corrected" ? 2 : 3) * Table::bytes(n, most) + (std::uint64_t{64} << 20);
   }
 
   void prepare(const ParameterSet& p, const EstimatorContext& context, KernelUnit& unit) const override {
@@ -51,8 +70,10 @@ class Preintegrated : public EstimatorPlugin {
     Groups groups;
     const TableRequest request =
         request_of(context.medium->terms(), context.full, context.lit_particles, plain, groups);
-    const auto table = table_of(*context.medium, context.value_min, context.value_max, n, request, context.step,
-                                p.text("update") == "partial", {context.folder});
+    auto table = table_of(*context.medium, context.value_min, context.value_max, n, request, context.step,
+                          p.text("update") == "partial", {context.folder});
+    const auto variant = static_cast<Variant>(p.choice_index("variant"));
+    if (variant != Variant::corrected) table = published_table(*table, variant, 0);
     const auto integer = [&](const char* name, int value) {
       unit.uniforms.push_back(Uniform::constant_integer(std::string("preintegrated_") + name, value));
     };

@@ -74,14 +74,18 @@ bool Table::update(Cells cells, const BuildMeans& means) {
 }
 
 const float* Table::buffer(Direction direction, int group) const {
-  const int place = (direction == Direction::ascending ? 0 : request_.groups()) + group;
-  return memory_.get() + 4 * table_entries(values()) * place;
+  const int block = (direction == Direction::ascending ? 0 : request_.groups()) + group;
+  return memory_.get() + 4 * table_entries(values()) * block;
 }
 
-float Table::at(int i, int j, int output) const {
+std::int64_t Table::place(int i, int j, int output) const {
   const Direction d = j >= i ? Direction::ascending : Direction::descending;
-  return buffer(d, output / 4)[table_entry(d, values(), i, j) * 4 + output % 4];
+  return buffer(d, output / 4) - memory_.get() + table_entry(d, values(), i, j) * 4 + output % 4;
 }
+
+float Table::at(int i, int j, int output) const { return memory_.get()[place(i, j, output)]; }
+
+void Table::set(int i, int j, int output, float x) { memory_.get()[place(i, j, output)] = x; }
 
 void Table::compute(int first, int last, const BuildMeans& means) {
   const dvr_table_module& module = table_module(means.folder, means.isa);

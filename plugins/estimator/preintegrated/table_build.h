@@ -40,6 +40,8 @@ class Table {
   std::shared_ptr<const float> memory() const { return memory_; }
   /// One channel of the entry from grid value i to grid value j (i == j: of the ascending direction).
   float at(int i, int j, int output) const;
+  /// Overwrites it.
+  void set(int i, int j, int output, float x);
 
   int values() const { return cells_.grid.n; }
   double h() const { return h_; }
@@ -49,6 +51,7 @@ class Table {
   static std::uint64_t bytes(int n, const TableRequest& request);
 
  private:
+  std::int64_t place(int i, int j, int output) const;
   void compute(int first, int last, const BuildMeans& means);
 
   Cells cells_;

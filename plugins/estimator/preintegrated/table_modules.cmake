@@ -38,7 +38,8 @@ function(dvrlab_table_library)
   dvrlab_add_table_modules(dvrlab ${folder})
   add_library(dvrlab_table STATIC ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/cells.cpp ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_request.cpp
               ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_inputs.cpp ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_library.cpp
-              ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_build.cpp ${DVRLAB_ROOT}/backends/cpu/isa.cpp)
+              ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/table_build.cpp ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/definition.cpp
+              ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/published.cpp ${DVRLAB_ROOT}/backends/cpu/isa.cpp)
   target_link_libraries(dvrlab_table PUBLIC dvrlab_core PRIVATE dvrlab_warnings ${CMAKE_DL_LIBS})
   target_compile_definitions(dvrlab_table INTERFACE DVRLAB_TABLE_MODULES="${folder}")
   add_dependencies(dvrlab_table ${DVRLAB_TABLE_MODULE_TARGETS})

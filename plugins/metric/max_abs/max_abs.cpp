@@ -14,11 +14,13 @@ struct Worst {
 };
 
 // Equal numbers, infinities included, differ by 0. A difference that is not finite counts as infinite.
-Worst worst_of(const std::vector<float>& a, const std::vector<float>& b) {
+template <class NumberOf>
+Worst worst_of(const FrameImage& a, const FrameImage& b, NumberOf number) {
   Worst worst;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i] == b[i]) continue;
-    double difference = std::fabs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+  for (std::size_t i = 0; i < a.color.size(); ++i) {
+    const double x = number(a, i), y = number(b, i);
+    if (x == y) continue;
+    double difference = std::fabs(x - y);
     if (!std::isfinite(difference)) difference = std::numeric_limits<double>::infinity();
     if (difference > worst.difference) worst = {difference, i};
   }
@@ -31,7 +33,9 @@ class MaxAbs : public MetricPlugin {
   std::vector<std::pair<std::string, double>> compare(const ParameterSet&, const FrameImage& image,
                                                       const FrameImage& reference) const override {
     check_same_size(image, reference);
-    const Worst color = worst_of(image.color, reference.color), trans = worst_of(image.trans, reference.trans);
+    const Worst color = worst_of(image, reference, [](const FrameImage& f, std::size_t i) { return f.radiance(i); });
+    const Worst trans =
+        worst_of(image, reference, [](const FrameImage& f, std::size_t i) { return f.transmittance(i); });
     const Worst& worst = trans.difference > color.difference ? trans : color;
     const std::size_t pixel = worst.index / 3, width = static_cast<std::size_t>(image.width);
     return {{"max_abs", worst.difference},

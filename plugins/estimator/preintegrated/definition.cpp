@@ -1,13 +1,11 @@
-#include "tests/preintegration/definition.h"
+#include "plugins/estimator/preintegrated/definition.h"
 
 #include <cmath>
 #include <cstdlib>
 
-namespace dvrlab::test {
+namespace dvrlab::preintegrated {
 
 namespace {
-using preintegrated::CellDirac;
-
 double phi1(double q) { return q == 0 ? 1 : -std::expm1(-q) / q; }
 
 double psi(double q) {
@@ -79,36 +77,32 @@ Entry diagonal(const Cells& cells, const SourceColumn& s, int e, double h, std::
 }
 }  // namespace
 
-Entry defined_entry(const Cells& cells, const SourceColumn& s, int e, double h, int i, int j, Fault fault) {
+Entry defined_entry(const Cells& cells, const SourceColumn& s, int e, double h, int i, int j, double surface_sign) {
   if (i == j) return diagonal(cells, s, e, h, std::size_t(i));
-  const int m = std::abs(j - i), last = cells.grid.cells() - 1;
-  const double sign = fault == Fault::printed_equation_22 && j < i ? -1 : 1;
+  const int m = std::abs(j - i);
   Triple r;
-  for (int k = 0; k < m; ++k) {
-    int at = j > i ? i + k : i - 1 - k;
-    if (fault == Fault::off_by_one) at = std::min(at + 1, last);
-    r = then(r, cell(cells, s, e, std::size_t(at), h / m, j < i, sign));
-  }
+  for (int k = 0; k < m; ++k)
+    r = then(r, cell(cells, s, e, std::size_t(j > i ? i + k : i - 1 - k), h / m, j < i, surface_sign));
   return {r.T, r.C, r.D / m};
 }
 
-std::vector<std::vector<double>> literal_slide(const Cells& cells, const SourceColumn& s, int e, double h) {
-  const int n = cells.grid.n;
-  std::vector<std::vector<double>> r(std::size_t(n), std::vector<double>(std::size_t(n), 0));
-  for (int m = 1; m < n; ++m) {
-    Triple window;
-    for (int k = 0; k < m; ++k) window = then(window, cell(cells, s, e, std::size_t(k), h / m, false, 1));
-    r[0][std::size_t(m)] = window.C;
-    for (int i = 0; i + m + 1 < n; ++i) {
-      const Triple front = cell(cells, s, e, std::size_t(i), h / m, false, 1),
-                   next = cell(cells, s, e, std::size_t(i + m), h / m, false, 1);
-      const double rest = (window.C - front.C) / front.T, R = window.T / front.T;
-      window.C = rest + R * next.C;
-      window.T = R * next.T;
-      r[std::size_t(i + 1)][std::size_t(i + 1 + m)] = window.C;
-    }
+std::vector<Entry> published_slide(const Cells& cells, const SourceColumn& s, int e, double h, int m, bool descending) {
+  const int count = cells.grid.cells();
+  const auto at = [&](int k) {
+    return cell(cells, s, e, std::size_t(descending ? count - 1 - k : k), h / m, descending, 1);
+  };
+  Triple w;
+  for (int k = 0; k < m; ++k) w = then(w, at(k));
+  std::vector<Entry> entries{{w.T, w.C, w.D / m}};
+  for (int i = 0; i + m < count; ++i) {
+    const Triple front = at(i), next = at(i + m);
+    const double rest = (w.C - front.C) / front.T, R = w.T / front.T;
+    w.D = (w.D - front.D) / front.T - rest + R * ((m - 1) * next.C + next.D);
+    w.C = rest + R * next.C;
+    w.T = R * next.T;
+    entries.push_back({w.T, w.C, w.D / m});
   }
-  return r;
+  return entries;
 }
 
 Approximation approximate_entry(const Cells& cells, const SourceColumn& s, int e, double h, int i, int j) {
@@ -132,4 +126,4 @@ Approximation approximate_entry(const Cells& cells, const SourceColumn& s, int e
   return {G * phi1(Q), Q};
 }
 
-}  // namespace dvrlab::test
+}  // namespace dvrlab::preintegrated

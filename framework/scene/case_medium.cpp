@@ -1,0 +1,84 @@
+#include "framework/scene/case_medium.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "framework/interfaces/error.h"
+#include "framework/scene/discrete_surfaces.h"
+#include "framework/scene/tf_domain.h"
+
+namespace dvrlab {
+
+namespace {
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+}  // namespace
+
+Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
+                    std::vector<std::string>& notes) {
+  const ParameterSet& p = c.optical_model.parameters;
+  ModelContext context;
+  context.length_unit = p.text("length_unit") == "voxel" ? voxel : 1.0;
+  context.opacity_interpolation = p.text("interpolation") == "opacity";
+  context.linear_color = c.image.text("space") == "linear";
+  context.opaque = static_cast<ModelContext::Opaque>(p.choice_index("opaque"));
+  context.opaque_width = (value_max - value_min) / static_cast<double>(p.integer("tf_entries") - 1);
+  context.value_min = value_min;
+  context.value_max = value_max;
+  context.notes = &notes;
+  Medium medium =
+      registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
+  const double pulse = registry.get<EstimatorPlugin>("estimator", c.estimator.type).dirac_pulse(c.estimator.parameters);
+  if (pulse == 0 || medium.dirac.empty()) return medium;
+  notes.push_back("estimator: Dirac terms are approximated by pulses of width " + short_number(pulse));
+  return with_pulses(medium, pulse);
+}
+
+Medium stored_medium(const ResolvedCase& c, const Registry& registry, const Field& field,
+                     std::vector<std::string>& notes) {
+  const TfDomain domain = tf_domain(c.optical_model.parameters, field);
+  if (!domain.note.empty()) notes.push_back(domain.note);
+  const double slope = domain.slope(field), intercept = domain.intercept(field);
+  const auto [lowest, highest] =
+      std::minmax({slope * field.stored_min + intercept, slope * field.stored_max + intercept});
+  return model_medium(c, registry, field.voxel, lowest, highest, notes).rescaled(slope, intercept);
+}
+
+void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d) {
+  Terms missing;
+  missing.bits = medium.terms().bits & ~d.handles;
+  const auto& keys = c.estimator.parameters.declared();
+  const bool pulses = std::any_of(keys.begin(), keys.end(),
+                                  [](const Parameter& p) { return p.name == std::string("approximate_dirac"); });
+  const std::string hint =
+      missing.dirac() && pulses ? "; estimator.approximate_dirac can stand pulses in for Dirac terms" : "";
+  if (missing.bits != 0)
+    throw InputError("estimator.type: estimator \"" + c.estimator.type + "\" cannot integrate the terms " +
+                     missing.text() + " of optical model \"" + c.optical_model.type +
+                     "\"; choose another estimator (dvrlab list estimator) or remove these terms" + hint);
+  if (d.needs_nodes && c.optical_model.parameters.text("tf") != "nodes")
+    throw InputError("estimator.type: estimator \"" + c.estimator.type +
+                     "\" integrates between the transfer functions' nodes; set optical_model.tf to \"nodes\"");
+}
+
+MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
+  const ParameterSet& p = c.optical_model.parameters;
+  MediumTableOptions o;
+  o.nodes = p.text("tf") == "nodes";
+  o.entries = static_cast<int>(p.integer("tf_entries"));
+  o.lo = field.stored_min;
+  o.hi = field.stored_max;
+  if (!p.is_null("tf_range")) {
+    const nlohmann::json& range = p.json("tf_range");
+    o.lo = (range[0].get<double>() - field.intercept) / field.slope;
+    o.hi = (range[1].get<double>() - field.intercept) / field.slope;
+    if (o.lo > o.hi) std::swap(o.lo, o.hi);
+  }
+  if (!(o.hi > o.lo)) o.hi = o.lo + 1.0;  // a constant field: the table needs a width
+  return o;
+}
+
+}  // namespace dvrlab

@@ -1,0 +1,59 @@
+#include "framework/scene/check_case.h"
+
+#include "framework/interfaces/error.h"
+#include "framework/interfaces/estimator.h"
+#include "framework/scene/camera.h"
+#include "framework/scene/case_medium.h"
+#include "framework/scene/cells.h"
+#include "framework/scene/lighting.h"
+#include "framework/scene/scene.h"
+
+namespace dvrlab {
+
+void check_case(const ResolvedCase& c, const Registry& registry, Problems& problems) {
+  const auto part = [&](auto check) {
+    try {
+      check();
+    } catch (const InputError& e) {
+      problems.add(e.what());
+    } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of the case when it runs
+    }
+  };
+  part([&] {
+    std::vector<std::string> notes;
+    const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
+    refuse_impossible(c, medium,
+                      registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
+                          .declaration(c.estimator.parameters));
+  });
+  part([&] {
+    const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")
+                                    .refuses(precision_of(c), c.backend.parameters);
+    if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
+  });
+  part([&] { check_cells(c); });
+  if (c.illumination.size() > 1)
+    problems.add("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
+                 "); give one");
+  part([&] {
+    const std::string sampler = c.data.parameters.text("sampler");
+    if (!sampler.empty()) registry.get<SamplerPlugin>("sampler", sampler, "data.sampler");
+  });
+  // Cameras, planes and lights that point nowhere do so in every box.
+  FormulaField box;
+  box.lo = {-1, -1, -1};
+  KernelUnit unused;
+  part([&] { add_camera(c.camera, box, 2, 2, unused); });
+  for (const Section& plane : c.clip) part([&] { add_clipping({plane}, box, unused); });
+  ResolvedCase alone;  // a light, then the passes
+  alone.camera = c.camera;
+  for (const Section& light : c.lights) {
+    alone.lights = {light};
+    part([&] { local_shading(alone, registry, box, false); });
+  }
+  alone.lights.clear();
+  alone.illumination = c.illumination;
+  part([&] { local_shading(alone, registry, box, false); });
+}
+
+}  // namespace dvrlab
