@@ -85,8 +85,9 @@ TEST_F(Info, PlotsShowHistogramAndTransferFunctions) {
   const std::string config = drawn(example, "config.svg");
   EXPECT_EQ(config, drawn(example, "config_again.svg"));
   EXPECT_NE(config, drawn(example + " --set optical_model.scattering.color='[[0,1,0,0]]'", "red.svg"));
-  EXPECT_NE(config,
-            drawn(example + " --set optical_model.surface.delta='[{\"value\":0.5,\"opacity\":0.4}]'", "spike.svg"));
+  EXPECT_NE(config, drawn(example + " --set estimator.approximate_dirac=0.1 --set "
+                                    "optical_model.surface.delta='[{\"value\":0.5,\"opacity\":0.4}]'",
+                          "spike.svg"));
   EXPECT_EQ(config, drawn(example + " --set optical_model.dl_std=7", "same_bars.svg")) << "no bar depends on dl_std";
   const std::string png = drawn(example, "config.png");
   EXPECT_EQ(png.substr(1, 3), "PNG");

@@ -61,7 +61,7 @@ Triple cell(const Cells& cells, const SourceColumn& s, int e, std::size_t k, dou
   Triple r;
   for (const CellDirac& d : inside) {
     r = then(r, homogeneous(d.u - r.length, q, G));
-    const double mu = d.mu[std::size_t(e)];
+    const double mu = sign * d.mu[std::size_t(e)];  // in tables a Dirac term is a step of the integral over |dv|
     r = then(r, {std::exp(-mu), -std::expm1(-mu) * dirac_source(s, d), 0, 0});
   }
   return then(r, homogeneous(1 - r.length, q, G));
