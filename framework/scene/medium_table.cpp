@@ -74,7 +74,29 @@ std::vector<int> prefix_sums(const MediumTableOptions& o, Test contributes) {
 
 }  // namespace
 
-MediumLayout::MediumLayout(const Medium& medium, const MediumTableOptions& options) : options_(options) {
+namespace {
+/// True where the highlight's weight is the extinction, as polynomials of every interval.
+bool weighs_extinction(const Medium& medium, Term weight, Term extinction) {
+  return std::all_of(medium.interval.begin(), medium.interval.end(), [&](const MediumInterval& i) {
+    for (int c = 0; c < 3; ++c)
+      if (i.c[std::size_t(column(weight, c))] != i.c[std::size_t(column(extinction, c))]) return false;
+    return true;
+  });
+}
+
+MediumLayout::Form form_of(const Medium& medium, const MediumTableOptions& o) {
+  using enum MediumLayout::Form;
+  const Terms terms = medium.terms();
+  if (!o.full || o.rgb || o.lit_particles) return general;
+  if (terms.surfaces() && !weighs_extinction(medium, Term::W_s, Term::tau_s)) return general;
+  if (!terms.has(Term::S_l) && !terms.has(Term::W_l)) return compact_unlit;
+  const bool mixed = terms.has(Term::E) || terms.has(Term::P) || !weighs_extinction(medium, Term::W_l, Term::tau_l);
+  return mixed ? general : compact_lit;
+}
+}  // namespace
+
+MediumLayout::MediumLayout(const Medium& medium, const MediumTableOptions& options)
+    : options_(options), form_(form_of(medium, options)) {
   const Terms terms = medium.terms();
   emits_ = options.full && (terms.has(Term::E) || terms.has(Term::P));
   surfaces_ = options.full && terms.surfaces();
@@ -82,6 +104,13 @@ MediumLayout::MediumLayout(const Medium& medium, const MediumTableOptions& optio
 
 std::vector<MediumGroup> MediumLayout::groups(const Columns& x) const {
   const auto rgb = [&](Term t, double w) { return MediumGroup{col(x, t, 0), col(x, t, 1), col(x, t, 2), w}; };
+  if (form_ != Form::general) {
+    MediumGroup first = rgb(Term::S_l, col(x, Term::tau_l, 0));
+    if (form_ == Form::compact_unlit)
+      for (int c = 0; c < 3; ++c) first[std::size_t(c)] = col(x, Term::E, c) + col(x, Term::P, c);
+    if (!surfaces_) return {first};
+    return {first, rgb(Term::S_s, col(x, Term::tau_s, 0))};
+  }
   if (options_.full) {
     std::vector<MediumGroup> g = {rgb(Term::tau_l, col(x, Term::tau_s, 0)), rgb(Term::S_l, col(x, Term::tau_s, 1)),
                                   rgb(Term::W_l, col(x, Term::tau_s, 2))};
@@ -103,6 +132,7 @@ void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& u
       unit.uniforms.end(),
       {Uniform::constant_integer("medium_use_nodes", o.nodes ? 1 : 0),
        Uniform::constant_integer("medium_groups", layout.count()),
+       Uniform::constant_integer("medium_form", int(layout.form())),
        Uniform::constant_integer("medium_emits", layout.emits() ? 1 : 0),
        Uniform::constant_integer("medium_surfaces", layout.surfaces() ? 1 : 0), Uniform::real("medium_lo", o.lo),
        Uniform::real("medium_scale", (o.entries - 1) / (o.hi - o.lo)), Uniform::real("medium_last", o.entries - 1)});

@@ -13,7 +13,8 @@ struct MediumTableOptions {
   int entries = 4096;
   double lo = 0, hi = 1;  // stored values of the first and last entry
   bool rgb = false, full = false;
-  bool fold_shaded = false;  // plain: the unlit medium's source is E + P + S_l (no local shading: k = 1, b = 0)
+  bool lit_particles = false;  // full: m is not 1 everywhere, so E and P must stay apart
+  bool fold_shaded = false;    // plain: the unlit medium's source is E + P + S_l (no local shading: k = 1, b = 0)
 };
 
 using MediumGroup = std::array<double, 4>;
@@ -22,14 +23,20 @@ using MediumGroup = std::array<double, 4>;
 /// values, means and polynomial coefficients alike.
 class MediumLayout {
  public:
+  /// Of a full medium. Compact where extinction is grey, every highlight's weight is the extinction beside it, and the
+  /// matter that has a length is lit either everywhere or nowhere: then half or less of the numbers say all.
+  enum class Form { general, compact_unlit, compact_lit };
+
   MediumLayout(const Medium& medium, const MediumTableOptions& options);
   std::vector<MediumGroup> groups(const std::array<double, medium_columns>& columns) const;
+  Form form() const { return form_; }
   bool emits() const { return emits_; }
   bool surfaces() const { return surfaces_; }
   int count() const { return static_cast<int>(groups({}).size()); }
 
  private:
   MediumTableOptions options_;
+  Form form_ = Form::general;
   bool emits_, surfaces_;
 };
 

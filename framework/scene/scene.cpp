@@ -118,6 +118,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   MediumTableOptions options = table_options(c, *field);
   options.rgb = job.rgb;
   options.full = job.full;
+  options.lit_particles = shading.mode == LocalShading::Mode::prescribed;
   options.fold_shaded = !job.full;
 
   job.frame.plugin = "frame";

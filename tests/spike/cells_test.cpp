@@ -114,7 +114,7 @@ json grid_case(double tolerance) {
           {"data", {{"type", "procedural"}}},
           {"optical_model",
            {{"type", "absorption_emission"}, {"tf", "nodes"}, {"extinction", extinction}, {"color", color}}},
-          {"estimator", {{"type", "spike_exact"}}},
+          {"estimator", {{"type", "exact"}}},
           {"camera", {{"type", "ray"}, {"frame", "world"}, {"origin", entry}, {"direction", toward}}},
           {"sampling", {{"type", "cells"}, {"tolerance", tolerance}, {"termination", 0}}},
           {"image", {{"size", {1, 1}}}}};

@@ -15,7 +15,7 @@ json ray_case(double length, double y, double z) {
   return {
       {"data", {{"type", "procedural"}}},
       {"optical_model", {{"type", "absorption_emission"}, {"tf", "nodes"}, {"length_unit", "world"}}},
-      {"estimator", {{"type", "spike_exact"}}},
+      {"estimator", {{"type", "exact"}}},
       {"camera",
        {{"type", "ray"}, {"frame", "world"}, {"origin", {-1, y, z}}, {"direction", {1, 0, 0}}, {"t", {0, length + 2}}}},
       {"sampling", {{"type", "uniform"}, {"step", length}, {"unit", "world"}, {"termination", 0}}},
@@ -111,7 +111,7 @@ TEST(SpikeWalk, SameBitsOnAPerspectiveView) {
     "optical_model": { "type": "absorption_emission", "tf": "nodes", "length_unit": "world", "shaded": true,
                        "extinction": [[0, 0], [0.3, 0.2], [0.5, 4], [0.6, 0.3], [1, 2]],
                        "color": [[0, 0.2, 0.5, 0.9], [1, 1, 0.6, 0.2]] },
-    "estimator": { "type": "spike_exact", "dirac_value": 0.55, "dirac_depth": [0.4, 0.4, 0.4], "dirac_light": "inside" },
+    "estimator": { "type": "exact" },
     "lights": [ { "type": "head" } ], "illumination": [ { "type": "blinn_phong" } ],
     "camera": { "type": "perspective", "frame": "data", "position": [1.5, -2.0, 1.2], "up": [0, 0, 1], "fov_deg": 40 },
     "clip": [ { "normal": [1, 0.2, 0], "offset": 0.6 } ],

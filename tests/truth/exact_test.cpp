@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <random>
 
-#include "tests/truth/truth_test.h"
+#include "tests/truth/ray_cases.h"
 
 namespace dvrlab::test {
 namespace {
@@ -187,6 +187,19 @@ TEST_P(Exact, ARayIsWholeOrRefused) {
 }
 
 // fp64 on the cpu: 1e-12 on straight segments, in one piece and in many; 1e-9 on curved rays, walked cell by cell.
+TEST(ExactRefuses, TablesOfTheMedium) {
+  json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
+  config["optical_model"] = model({{0, 1}}, {{0, 1, 1, 1}});
+  config["optical_model"]["tf"] = "table";
+  config["estimator"] = {{"type", "exact"}};
+  try {
+    scene_of(config);
+    FAIL() << "it was accepted";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("optical_model.tf"), std::string::npos) << e.what();
+  }
+}
+
 TEST(ExactFp64, GoldenRays) {
   if (golden().is_null()) GTEST_SKIP() << "not supported: no data (golden/public.json)";
   const Target cpu{"cpu", {{"type", "cpu"}}};
