@@ -140,6 +140,24 @@ TEST_P(Preintegrated, PublishedVariantsShowTheirFaults) {
   }
 }
 
+// A table that is updated in part gives the image of a new one, but for the last bit of an entry.
+TEST(PreintegratedUpdates, PartOfATable) {
+  const auto image_of = [](double peak, const char* update) {
+    json config =
+        ray_config({{"field", "sinusoid"}, {"direction", {1, 0, 0}}, {"a", 0.5}, {"b", 0.5}, {"omega", 3}}, 4, 0.3);
+    config["optical_model"] =
+        model({{0, 0.3}, {0.6, 0.4}, {0.65, peak}, {0.7, 0.4}, {1, 0.5}}, {{0, 1, 0.5, 0.2}, {1, 0.1, 0.6, 1}});
+    config["estimator"] = {{"type", "preintegrated"}, {"table_size", 300}, {"update", update}};
+    return render(config, targets().front()).image;
+  };
+  image_of(3, "full");
+  const FrameImage partial = image_of(5, "partial");
+  for (const double other : {7.0, 8.0}) image_of(other, "full");  // nothing of the first tables is kept
+  const FrameImage full = image_of(5, "full");
+  EXPECT_LE(largest_difference(partial, full), 3e-7);
+  EXPECT_GT(largest_difference(image_of(3, "full"), full), 1e-2) << "the edit does not show";
+}
+
 TEST(PreintegratedRefuses, PublishedVariantsElsewhere) {
   const auto refusal = [](const json& estimator) {
     json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
