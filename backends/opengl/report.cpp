@@ -1,8 +1,5 @@
 #include "backends/opengl/report.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "backends/opengl/egl_context.h"
 #include "backends/opengl/limits.h"
 #include "framework/interfaces/error.h"
@@ -10,12 +7,6 @@
 
 namespace dvrlab {
 namespace {
-
-/// The surfaceless platform does not say whether its renderer is a processor; Mesa's names do.
-bool is_software(std::string renderer) {
-  std::transform(renderer.begin(), renderer.end(), renderer.begin(), [](unsigned char c) { return std::tolower(c); });
-  return renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe") || renderer.starts_with("swrast");
-}
 
 DeviceReport device_report(const EglCandidate& candidate) {
   DeviceReport r;

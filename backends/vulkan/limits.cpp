@@ -23,6 +23,7 @@ ShaderLimits shader_limits(VkPhysicalDevice device) {
   ShaderLimits result;
   result.target = ShaderTarget::vulkan;
   result.buffer_range = std::min<std::uint64_t>(limits.maxStorageBufferRange, allocation.maxMemoryAllocationSize);
+  result.runs_both_branches = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   result.uniform_range = limits.maxUniformBufferRange;
   result.storage_buffers =
       int(std::min({limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers,

@@ -95,6 +95,14 @@ void check_one(const Experiment& experiment, const Expectation& e, const std::st
                                    [](const AxisChoice& choice) { return choice.key == view_key; });
     ordered = ordered || (!e.series.key.empty() && series_place(e.series, c.resolved.config));
   }
+  for (const nlohmann::json& value : e.series.values) {
+    const bool found = std::any_of(experiment.cases.begin(), experiment.cases.end(), [&](const PlannedCase& c) {
+      const nlohmann::json* at = value_at(c.resolved.config, e.series.key);
+      return c.reference_name.empty() && applies(e, c.resolved.config) && at != nullptr && *at == value;
+    });
+    if (!found && applied)
+      problems.add(where + "no case that is meant has " + short_text(value) + " at '" + e.series.key + "'");
+  }
   if (!applied) {
     problems.add(where + "no case is meant: none has all the values of `where`");
     return;

@@ -41,6 +41,8 @@ std::string wrong_nodes(const Parameter& p, const json& v) {
     }
     if (i > 0 && row[0].get<double>() < v[i - 1][0].get<double>())
       return node + short_text(row) + " lies before its predecessor: values must ascend";
+    if (std::any_of(row.begin() + 1, row.end(), [](const json& x) { return x.get<double>() < 0; }))
+      return node + short_text(row) + " is negative: what a transfer function gives must be 0 or more";
   }
   for (const std::string& components : split_words(p.legal)) {
     if (columns == 1 + std::stoul(components)) return "";

@@ -35,13 +35,21 @@ Schema number_of(const char* type, const char* interval) {
   return s;
 }
 
+/// A value, and what is never negative.
+Schema node_of(std::size_t length) {
+  return {{"type", "array"},
+          {"items", Schema::array({{{"type", "number"}}})},
+          {"additionalItems", {{"type", "number"}, {"minimum", 0}}},
+          {"minItems", length},
+          {"maxItems", length}};
+}
+
 /// Rows of equal length: all of one of the legal lengths.
 Schema nodes_of(const std::string& components) {
   Schema options = Schema::array({{{"type", "null"}}});
   for (const std::string& count : split_words(components)) {
-    options.push_back({{"type", "array"},
-                       {"minItems", 1},
-                       {"items", list_of({{"type", "number"}}, 1 + std::strtoul(count.c_str(), nullptr, 10))}});
+    options.push_back(
+        {{"type", "array"}, {"minItems", 1}, {"items", node_of(1 + std::strtoul(count.c_str(), nullptr, 10))}});
   }
   return {{"anyOf", options}};
 }

@@ -1,5 +1,5 @@
 // The march of a GPU invocation: one ray. Holes: frame_ray, clip_ray (ray.kernel); stream_start, stream_next, stream_open (steps.glsl
-// or walk.glsl, which call the sampler); segment_integrate (integrate.kernel, which calls the estimator).
+// or walk.glsl, which call the sampler; stream_ready: the round has a segment); segment_integrate (integrate.kernel, which calls the estimator).
 layout(local_size_x = 8, local_size_y = 8) in;
 
 void main() {
@@ -18,6 +18,7 @@ void main() {
   if (stream_L > 0.0) {
     stream_start(x, y);
     while (terminated == 0 && stream_next(q)) {
+      if (!stream_ready) continue;
       vec3 c;
       spectral t;
       segment_integrate(q, c, t);

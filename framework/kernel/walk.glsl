@@ -9,7 +9,8 @@
 //                                the world gradient at the current sample, continuous along the ray
 // The scalar is linear between two samples. A segment of length 0 counts as a gap.
 walk_state stream_walk;
-bool stream_walking = true;  // the ray is not through
+bool stream_walking = true;      // the ray is not through
+const bool stream_ready = true;  // every round has a segment
 
 void stream_start(int x, int y) { walk_start(stream_o, stream_d, stream_L, stream_walk); }
 

@@ -135,11 +135,13 @@ double off_the_line(const std::vector<Point>& points, double power) {
 void judge_series(const std::vector<const Judged*>& group, const Expectation& e) {
   const Expectation::Series& s = e.series;
   std::vector<Point> points;
+  std::string incomplete;  // why some member has no value: nothing can be said of the whole
   for (const Judged* j : group) {
     const std::optional<double> x = series_place(s, j->records.front()->plan->resolved.config);
     if (!x && !s.values.empty()) continue;  // the list says which cases are meant
     if (!j->value) {
       conclude(*j, e, std::nullopt, Verdict::not_supported, j->why_none);
+      incomplete = j->why_none;
     } else if (!x) {
       conclude(*j, e, std::nullopt, Verdict::not_supported, "the case has no number at " + s.key);
     } else {
@@ -161,7 +163,10 @@ void judge_series(const std::vector<const Judged*>& group, const Expectation& e)
     good = in_order(points, s.increasing);
   }
   for (const Point& p : points) {
-    if (points.size() < least) {
+    if (!incomplete.empty()) {
+      conclude(*p.judged, e, std::nullopt, Verdict::not_supported,
+               "another case of the series has no value: " + incomplete);
+    } else if (points.size() < least) {
       conclude(*p.judged, e, std::nullopt, Verdict::not_supported,
                (s.affine ? "a line needs three cases, there are " : "an order needs two cases, there are ") +
                    std::to_string(points.size()));

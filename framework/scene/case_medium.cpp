@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "framework/interfaces/error.h"
+#include "framework/scene/cells.h"
 #include "framework/scene/discrete_surfaces.h"
 #include "framework/scene/tf_domain.h"
 
@@ -15,6 +16,15 @@ std::string short_number(double x) {
   std::snprintf(text, sizeof text, "%g", x);
   return text;
 }
+
+/// "" or the way out for terms that samples cannot see.
+std::string hint_of(const ResolvedCase& c) {
+  const auto& keys = c.estimator.parameters.declared();
+  const bool pulses = std::any_of(keys.begin(), keys.end(),
+                                  [](const Parameter& p) { return p.name == std::string("approximate_dirac"); });
+  return pulses ? "; estimator.approximate_dirac can stand pulses in for Dirac terms" : "";
+}
+
 }  // namespace
 
 Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
@@ -32,7 +42,11 @@ Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxe
   Medium medium =
       registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
   const double pulse = registry.get<EstimatorPlugin>("estimator", c.estimator.type).dirac_pulse(c.estimator.parameters);
-  if (pulse == 0 || medium.dirac.empty()) return medium;
+  if (pulse == 0 || (medium.dirac.empty() && medium.opaque.empty())) return medium;
+  for (const Dirac& d : medium.dirac)
+    if (static_cast<float>(d.v - pulse / 2) >= static_cast<float>(d.v))
+      throw InputError("estimator.approximate_dirac: a pulse of width " + short_number(pulse) + " at value " +
+                       short_number(d.v) + " is narrower than fp32 resolves; give a wider one");
   notes.push_back("estimator: Dirac terms are approximated by pulses of width " + short_number(pulse));
   return with_pulses(medium, pulse);
 }
@@ -50,15 +64,23 @@ Medium stored_medium(const ResolvedCase& c, const Registry& registry, const Fiel
 void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d) {
   Terms missing;
   missing.bits = medium.terms().bits & ~d.handles;
-  const auto& keys = c.estimator.parameters.declared();
-  const bool pulses = std::any_of(keys.begin(), keys.end(),
-                                  [](const Parameter& p) { return p.name == std::string("approximate_dirac"); });
-  const std::string hint =
-      missing.dirac() && pulses ? "; estimator.approximate_dirac can stand pulses in for Dirac terms" : "";
+  const std::string hint = missing.dirac() ? hint_of(c) : "";
   if (missing.bits != 0)
     throw InputError("estimator.type: estimator \"" + c.estimator.type + "\" cannot integrate the terms " +
                      missing.text() + " of optical model \"" + c.optical_model.type +
                      "\"; choose another estimator (dvrlab list estimator) or remove these terms" + hint);
+  if (samples_cells(c) && (d.fixed_length || (d.neighbours && medium.terms().surfaces())))
+    throw InputError("sampling.type: \"cells\" ends segments where the field is no longer linear, but estimator \"" +
+                     c.estimator.type + "\" needs equally spaced samples for the terms of optical model \"" +
+                     c.optical_model.type + "\"; choose another estimator");
+  const bool isosurface =
+      std::any_of(medium.opaque.begin(), medium.opaque.end(), [](const OpaqueRange& r) { return r.v0 == r.v1; });
+  if (isosurface && d.samples == EstimatorDeclaration::Samples::centre)
+    throw InputError(
+        "estimator.type: estimator \"" + c.estimator.type +
+        "\" looks at the middle of segments, where it does not see an isosurface of opacity 1; choose another "
+        "estimator or a lower opacity" +
+        hint_of(c));
   if (d.needs_nodes && c.optical_model.parameters.text("tf") != "nodes")
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" integrates between the transfer functions' nodes; set optical_model.tf to \"nodes\"");

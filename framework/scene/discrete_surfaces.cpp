@@ -92,6 +92,11 @@ Medium with_pulses(const Medium& medium, double width) {
   }
   result = builder.take();
   result.dirac.clear();
+  for (OpaqueRange& r : result.opaque) {
+    if (r.v0 != r.v1) continue;
+    r.v0 -= width / 2;
+    r.v1 += width / 2;
+  }
   return result;
 }
 

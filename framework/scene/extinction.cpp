@@ -122,6 +122,7 @@ std::string note_text(const char* format, double a, double b) {
 Extinction extinction_of(const Curve& opacity, const Curve* transmission, double standard, const std::string& name,
                          const ModelContext& context) {
   check_opacity(opacity, name);
+  if (transmission != nullptr) check_opacity(*transmission, name + ", its transmission");
   Converter convert(opacity, transmission, standard);
   const std::vector<Node> alpha = convert.at_breaks();
   std::vector<Node> mu;

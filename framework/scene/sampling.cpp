@@ -43,8 +43,9 @@ void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
 }
 
 namespace {
-// Whole numbers of segments stay exact in fp32 far beyond this; software GPUs cut a loop after 65535 rounds.
-constexpr double most_segments = 65535;
+// Whole numbers of segments stay exact in fp32 far beyond this; software GPUs cut a loop after 65535 rounds,
+// and the first samples of a ray take rounds of their own.
+constexpr double most_segments = 65500;
 }  // namespace
 
 // A ray passes at most the diagonal of the domain, and what the camera allows.

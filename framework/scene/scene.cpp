@@ -31,6 +31,14 @@ std::string sampler_of(const ResolvedCase& c, const Field& field) {
   return wanted.empty() ? field.sampler : wanted;
 }
 
+/// The estimator's mode of light_of_segment, where it has the shared key.
+int shading_inside(const ParameterSet& estimator) {
+  const auto& keys = estimator.declared();
+  const bool has =
+      std::any_of(keys.begin(), keys.end(), [](const Parameter& p) { return p.name == std::string("shading"); });
+  return has ? estimator.choice_index("shading") : 0;
+}
+
 /// Splits the time of a build into phases.
 class PhaseClock {
  public:
@@ -78,6 +86,10 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
                static_cast<double>(
                    registry.get<EstimatorPlugin>("estimator", c.estimator.type)
                        .bytes_needed(c.estimator.parameters, model_medium(c, registry, 1, 0, 1, notes).terms())));
+  // Sums in fp32 with what rounding took, rates, and the sums in fp64: of at most eight groups of four.
+  const auto bins =
+      registry.get<EstimatorPlugin>("estimator", c.estimator.type).declaration(c.estimator.parameters).mean_bins;
+  if (bins > 0) memory.state("mean tables", 8.0 * 12.0 * (bins + 2.0) * (sizeof(float) + sizeof(double)));
   for (const Section& s : c.illumination)
     memory.state(
         "illumination '" + s.type + "'",
@@ -136,6 +148,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
       job.frame.uniforms.end(),
       {Uniform::constant_integer("frame_samples_ends", declared.samples == EstimatorDeclaration::Samples::ends ? 1 : 0),
        Uniform::constant_integer("frame_cuts_diracs", declared.cuts_diracs ? 1 : 0),
+       Uniform::constant_integer("frame_segment_shading", shading_inside(c.estimator.parameters)),
        Uniform::constant_integer("frame_neighbours", declared.neighbours && surfaces ? 1 : 0),
        Uniform::constant_integer("frame_gradient", gradient ? 1 : 0)});
 
@@ -146,7 +159,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   if (samples_cells(c))
     add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
               OccupiedBins(scene.medium, options), job.frame);
-  if ((samples_cells(c) || walks(job.sampler)) && (declared.fixed_length || (declared.neighbours && surfaces)))
+  if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" needs equally spaced samples, but sampler \"" + sampler +
                      "\" ends its segments at the faces of cells; choose another estimator");

@@ -131,7 +131,8 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
 
   shader.sources.push_back("preamble");
   shader.text = std::string("#version 450\n#define DVR_RGB ") + (job.rgb ? "1" : "0") + "\n#define DVR_FULL " +
-                (job.full ? "1" : "0") + "\n";
+                (job.full ? "1" : "0") + "\n#define DVR_EAGER_GRADIENTS " + (limits.runs_both_branches ? "1" : "0") +
+                "\n";
   for (const Part& part : part_list) {
     std::string name, text;
     switch (part.from) {

@@ -28,6 +28,7 @@ struct ShaderLimits {
   std::uint64_t buffer_range = 0;   // bytes of one storage buffer
   std::uint64_t uniform_range = 0;  // bytes of one uniform block
   int storage_buffers = 0;          // of the compute stage
+  bool runs_both_branches = false;  // a software GPU: what a branch leaves out costs as much as what it takes
   std::vector<FloatMode> float_modes;
 };
 

@@ -61,6 +61,7 @@ json config_of(const Combination& c) {
              {"length_unit", "voxel"},
              {"opacity", {{at(0.05), 0}, {at(0.3), 0.03}, {at(0.7), 0.3}, {at(0.9), c.opaque ? 1.0 : 0.5}}},
              {"color", {{at(0), 0.2, 0.5, 1}, {at(1), 1, 0.6, 0.1}}}};
+  if (c.estimator.value("rule", "trapezoid") != "trapezoid") model.erase("emission");  // has no chromaticity
   if (type == "exact") model["tf"] = "nodes";
   json illumination = json::array({{{"type", "blinn_phong"}}});
   if (c.light == "none") illumination = json::array();

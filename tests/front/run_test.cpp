@@ -58,7 +58,8 @@ TEST_F(Run, OrdersOfValuesAndLines) {
   EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["a", "b", "c"], "is": "decreasing"}}])"))), 0);
   EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["a", "c"], "is": "decreasing"}}])"))), 0);
   EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["c", "a"], "is": "decreasing"}}])"))), 1);
-  EXPECT_EQ(exit_code(run(small_config(words + R"("values": ["c", "d"], "is": "decreasing"}}])"))), 3);
+  expect_error(small_config(words + R"("values": ["c", "d"], "is": "decreasing"}}])"),
+               {"no case that is meant has \"d\" at 'panel'"});
   EXPECT_TRUE(fs::exists(folder_ + "/out/small/cases/panel=a/case.json")) << "a panel names its case";
 
   // The depth of a medium is proportional to 1 / dl_std.

@@ -92,6 +92,6 @@ Buffer make_buffer(const std::string& name, Element element, std::uint64_t count
   return buffer;
 }
 
-ShaderLimits roomy_limits(ShaderTarget target) { return {target, 1u << 27, 1u << 16, 16, {}}; }
+ShaderLimits roomy_limits(ShaderTarget target) { return {target, 1u << 27, 1u << 16, 16, false, {}}; }
 
 }  // namespace dvrlab::gpu_test

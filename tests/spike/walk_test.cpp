@@ -57,10 +57,10 @@ TEST(SpikeWalk, HolesAreNoMatter) {
                        [](const Vector3& p) { return p[0] < 0.5 ? 0.2 : 0.8; },
                        [](int i, int, int) { return i != 1 && i != 2; }};
   json config = ray_case(length, 0.3, 0.1);
-  config["optical_model"]["extinction"] = {{0, tau}, {1, tau}};
-  config["optical_model"]["color"] = {{0, 0.5, 0.6, 0.7}, {1, 0.5, 0.6, 0.7}};
-  config["estimator"]["dirac_value"] = 0.5;
-  config["estimator"]["dirac_depth"] = {3, 3, 3};
+  config["optical_model"] = {{"type", "hybrid"},
+                             {"tf", "nodes"},
+                             {"scattering", {{"opacity", {{0, 1 - std::exp(-tau)}}}, {"color", {{0, 0.5, 0.6, 0.7}}}}},
+                             {"surface", {{"delta", {{{"value", 0.5}, {"opacity", 0.95}}}}}}};
   const FrameResult r = render_everywhere("walk, holes", scene_of(config.dump(), make_tets(block)).job);
   const double t = std::exp(-tau * 0.6 * length), color[3] = {0.5, 0.6, 0.7};
   for (std::size_t c = 0; c < 3; ++c) {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <random>
 
-#include "tests/truth/truth_test.h"
+#include "tests/truth/ray_cases.h"
 
 namespace dvrlab::test {
 namespace {
@@ -147,7 +147,7 @@ TEST_P(Estimators, OpaqueIsosurfaceEndsTheRay) {
       const bool backwards = trial % 3 == 0;
       // 0.5 lies on a sample when the number of segments is even.
       const double where = trial % 2 == 0 ? 0.5 : uniform(random), way = backwards ? 1 - where : where;
-      for (const char* estimator : {"exact", "approximative", "average"}) {
+      for (const char* estimator : {"exact", "approximative", "average", "preintegrated"}) {
         json config = opaque_wall(backwards, segments, "interval", where);
         config["estimator"] = {{"type", estimator}};
         if (estimator == std::string("exact")) config["optical_model"]["tf"] = "nodes";
@@ -175,8 +175,9 @@ TEST_P(Estimators, OpaqueEntries) {
   SKIP_WHEN_NOT_SUPPORTED({
     for (const char* opaque : {"interval", "dirac", "cap"}) {
       config["optical_model"]["opaque"] = opaque;
-      for (const char* estimator : {"approximative", "average", "direct"}) {
+      for (const char* estimator : {"approximative", "average", "direct", "exact", "preintegrated"}) {
         config["estimator"] = {{"type", estimator}};
+        config["optical_model"]["tf"] = estimator == std::string("exact") ? "nodes" : "table";
         const FrameImage r = render(config, GetParam()).image;
         const double bound = opaque == std::string("cap") ? 0.05 : 2e-6;  // the wall is where a sample is
         EXPECT_NEAR(r.color[0], 1, bound) << opaque << " " << estimator;
@@ -187,6 +188,69 @@ TEST_P(Estimators, OpaqueEntries) {
       }
     }
   })
+}
+
+// An isolated opaque entry: one table bin of opaque values, or an isosurface; either ends the ray for who sees the ends
+// of segments. Who samples their middle is refused the isosurface, unless a pulse stands for it.
+TEST_P(Estimators, IsolatedOpaqueEntries) {
+  json config = golden_medium_config("ramp", 64, false);
+  config["optical_model"] = {{"type", "hybrid"},
+                             {"dv_std", 1e6},
+                             {"surface", {{"opacity", {{0.4, 0}, {0.5, 1}, {0.6, 0}}}, {"color", {{0, 0.2, 1, 0.4}}}}}};
+  for (const char* opaque : {"interval", "dirac"}) {
+    config["optical_model"]["opaque"] = opaque;
+    for (const char* estimator : {"approximative", "average", "preintegrated"}) {
+      config["estimator"] = {{"type", estimator}};
+      SKIP_WHEN_NOT_SUPPORTED({
+        const FrameImage r = render(config, GetParam()).image;
+        EXPECT_EQ(r.trans[0], 0.0f) << opaque << estimator;
+        EXPECT_NEAR(r.color[1], 1, 1e-4) << opaque << estimator;
+      })
+    }
+  }
+  config["estimator"] = {{"type", "direct"}};
+  try {
+    render(config, GetParam());
+    ADD_FAILURE() << "direct does not see the isosurface and was not refused";
+  } catch (const NotSupported&) {
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("isosurface of opacity 1"), std::string::npos) << e.what();
+  }
+  config["estimator"]["approximate_dirac"] = 0.1;  // several samples wide
+  SKIP_WHEN_NOT_SUPPORTED(EXPECT_EQ(render(config, GetParam()).image.trans[0], 0.0f))
+  config["optical_model"]["surface"] = {{"delta", {{{"value", 0.5}, {"opacity", 0.5}}}}};
+  config["estimator"]["approximate_dirac"] = 1e-12;
+  try {
+    render(config, GetParam());
+    ADD_FAILURE() << "a pulse that fp32 cannot resolve was accepted";
+  } catch (const NotSupported&) {
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("narrower than fp32"), std::string::npos) << e.what();
+  }
+}
+
+TEST(EstimatorsRefuse, EmissionInAveragesOfChromaticity) {
+  json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
+  config["optical_model"] = {{"type", "hybrid"}, {"emission", {{"intensity", {{0, 1}}}}}};
+  config["estimator"] = {{"type", "average"}};
+  EXPECT_NEAR(render(config, targets().front()).image.color[0], 1, 1e-5);
+  config["estimator"]["rule"] = "mean_density";
+  EXPECT_THROW(render(config, targets().front()), InputError);
+}
+
+// Full pre-integration holds every kind of content at once, whichever look-up.
+TEST(EstimatorsAccept, AllContentsInPlainTables) {
+  json config = ray_config(ramp_field(0, 1, 1), 1, 0.25);
+  config["optical_model"] = {{"type", "hybrid"},
+                             {"surface", {{"opacity", {{0, 0.3}, {1, 0.5}}}}},
+                             {"scattering", {{"opacity", {{0, 0.3}, {1, 0.5}}}}},
+                             {"emission", {{"intensity", {{0, 0.2}}}}},
+                             {"absorption", {{"density", {{0, 0.4}}}, {"transmission_color", {{0, 0.9, 0.5, 0.1}}}}}};
+  config["illumination"] = {{{"type", "prescribed"}, {"m1", {0.5, 0.5, 0.5}}, {"k1", {0.2, 0.4, 0.6}}}};
+  config["estimator"] = {{"type", "preintegrated"}, {"table_size", 200}};
+  const FrameImage corrected = render(config, targets().front()).image;
+  config["estimator"]["lookup"] = "plain";
+  EXPECT_LE(largest_difference(render(config, targets().front()).image, corrected), 1e-4);
 }
 
 // ---- direct ------------------------------------------------------------------------------------------------------

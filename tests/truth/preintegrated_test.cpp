@@ -117,14 +117,14 @@ TEST_P(Preintegrated, SecondOrderInTheTable){SKIP_WHEN_NOT_SUPPORTED({
 })}
 
 // The printed equation 22 counts surfaces negative where the value falls: light comes out that never went in. The
-// published slide is right where little is removed from the window.
+// published slide diverges with the depth that it has removed (preintegration.Negative.LiteralSlideIsFound), not here.
 TEST_P(Preintegrated, PublishedVariantsShowTheirFaults) {
   json g = golden_case("kraus_short");
   g["ray"] = {{"type", "segment"}, {"v0", 0.1}, {"v1", 0.9}, {"dl", 1}};
   json falling = g;
   std::swap(falling["ray"]["v0"], falling["ray"]["v1"]);
   for (const char* variant : {"corrected", "published", "published_slide"}) {
-    const json estimator = {{"type", "preintegrated"}, {"lookup", "plain"}, {"table_size", 64}, {"variant", variant}};
+    const json estimator = {{"type", "preintegrated"}, {"lookup", "plain"}, {"table_size", 160}, {"variant", variant}};
     SKIP_WHEN_NOT_SUPPORTED({
       json up = golden_config(g, 1), down = golden_config(falling, 1);
       up["estimator"] = estimator;
@@ -133,8 +133,8 @@ TEST_P(Preintegrated, PublishedVariantsShowTheirFaults) {
       if (variant == std::string("published")) {
         EXPECT_GT(T_down, 1);
         EXPECT_NEAR(T_down, 1 / T_up, 0.1 / T_up);
-      } else if (variant == std::string("corrected")) {
-        EXPECT_NEAR(T_down, T_up, 0.1 * T_up);  // of a plain table of 64 values
+      } else {
+        EXPECT_NEAR(T_down, T_up, 0.1 * T_up) << variant;  // the slide has not gone far here
       }
     })
   }

@@ -94,17 +94,26 @@ TEST_P(Properties, UnitsDoNotMatter) {
   }
 }
 
-// P6: without emission, with colours and lights of at most 1, no more light comes than is taken away.
+// P6: without emission, with colours and light factors of at most 1, no more light comes than is taken away. Colours
+// reach 1 in one channel or another, and light factors go from 1 to less along the ray, so the bound is near.
 TEST_P(Properties, NoMoreLightThanOpacity) {
+  const json light = {
+      {"type", "prescribed"}, {"m0", {1, 1, 1}}, {"m1", {1, 0.5, 1}}, {"k0", {1, 0.4, 1}}, {"k1", {0.7, 1, 1}}};
   for (const json& estimator : {json{{"type", "direct"}}, json{{"type", "average"}},
                                 json{{"type", "average"}, {"rule", "mean_density"}}, json{{"type", "approximative"}},
                                 json{{"type", "preintegrated"}, {"table_size", 256}}, json{{"type", "exact"}}}) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-      json config = random_ray(seed, true, estimator, 7);
+      json config = random_ray(seed, false, estimator, 7);
+      config["optical_model"]["color"] = {{0, 1, 0.2, 1}, {1, 1, 1, 1}};
+      config["optical_model"].erase("absorption");  // takes light without giving any: the bound would be far away
+      if (seed % 2 == 0) config["illumination"] = {light};
       SKIP_WHEN_NOT_SUPPORTED({
         const FrameImage r = image(config);
         for (std::size_t c = 0; c < 3; ++c)
           EXPECT_LE(double(r.color[c]), 1 - double(r.trans[c]) + 4e-6) << estimator.dump() << seed;
+        if (seed % 2 == 1) {
+          EXPECT_NEAR(double(r.color[2]), 1 - double(r.trans[2]), 4e-6) << "the bound is met";
+        }
       })
     }
   }
@@ -115,6 +124,43 @@ TEST_P(Properties, NoMoreLightThanOpacity) {
   SKIP_WHEN_NOT_SUPPORTED({
     const FrameImage r = image(config);
     EXPECT_GT(double(r.color[0]), 1.1);
+  })
+}
+
+// Every pixel of an image of emitting particles and surfaces is affine in 1 / dl_std, and its depth in 1 / dv_std (Yang
+// et al. 2012, figures 9 and 10: the global parameters act on one kind of content each).
+TEST_P(Properties, PixelsAreAffineInTheInverseOfTheStandards) {
+  json config = {
+      {"data", {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {24, 24, 24}}}},
+      {"optical_model",
+       {{"type", "hybrid"},
+        {"length_unit", "voxel"},
+        {"surface", {{"opacity", {{0.3, 0}, {0.5, 0.4}, {0.7, 0}}}, {"color", {{0, 1, 0.5, 0.2}}}}},
+        {"emission", {{"intensity", {{0.2, 0}, {0.9, 0.3}}}, {"color", {{0, 0.2, 0.4, 1}}}}}}},
+      {"estimator", {{"type", "preintegrated"}, {"table_size", 256}}},
+      {"camera", {{"type", "perspective"}, {"position", {1.3, -2.2, 1.1}}, {"up", {0, 0, 1}}, {"fov_deg", 30}}},
+      {"sampling", {{"type", "uniform"}, {"step", 1}, {"termination", 0}}},
+      {"image", {{"size", {24, 20}}}}};
+  const auto of = [&](double dl, double dv) {
+    config["optical_model"]["dl_std"] = dl;
+    config["optical_model"]["dv_std"] = dv;
+    return image(config);
+  };
+  SKIP_WHEN_NOT_SUPPORTED({
+    const FrameImage a = of(4, 0.2), b = of(12, 0.2), c = of(600, 0.2), d = of(4, 1), e = of(4, 40);
+    // where b lies between a and c on the line in 1 / dl_std; d between a and e in 1 / dv_std
+    const double w = (1.0 / 12 - 1.0 / 600) / (1.0 / 4 - 1.0 / 600), u = (1 - 1.0 / 40) / (5 - 1.0 / 40);
+    double largest = 0, curved = 0;
+    for (std::size_t i = 0; i < a.color.size(); ++i) {
+      EXPECT_NEAR(double(b.color[i]), w * a.color[i] + (1 - w) * c.color[i], 3e-6 * (1 + a.color[i]));
+      EXPECT_EQ(a.trans[i], c.trans[i]) << "emission takes no light";
+      const auto depth = [i](const FrameImage& f) { return -std::log(double(f.trans[i])); };
+      EXPECT_NEAR(depth(d), u * depth(a) + (1 - u) * depth(e), 3e-6 * (1 + depth(a) / a.trans[i] * 1e-1));
+      largest = std::max(largest, depth(a));
+      curved = std::max(curved, std::abs(double(d.color[i]) - (u * a.color[i] + (1 - u) * e.color[i])));
+    }
+    EXPECT_GT(largest, 1) << "there is something to see";
+    EXPECT_GT(curved, 1e-2) << "negative control: radiance is not affine in 1 / dv_std";
   })
 }
 

@@ -22,7 +22,9 @@ std::string group_of(const std::string& key) {
   return dot == std::string::npos ? "" : key.substr(0, dot);
 }
 
-bool is_color(const Parameter& p) { return p.type == ParameterType::nodes && p.legal == std::string("3"); }
+bool is_color(const Parameter& p) {
+  return p.type == ParameterType::nodes && p.legal == std::string("3") && std::string(p.name).ends_with("color");
+}
 
 /// The colour nodes that belong to an amount of `group`: its own group's, else those outside groups.
 std::string color_key(const ParameterSet& model, const std::string& group) {

@@ -28,8 +28,8 @@ Vector3 amount_at(const TfBar& bar, double value);
 Vector3 color_at(const TfBar& bar, double value);
 
 /// One bar per amount that is given, in the order of the model's declaration, whatever the model: of the declared
-/// nodes, those with one component or one or three are amounts, and those with three are the colour of their group or,
-/// outside groups, of whatever has none.
+/// nodes, those whose name ends in "color" are the colour of their group or, outside groups, of whatever has none; the
+/// others are amounts.
 std::vector<TfBar> tf_bars(const ParameterSet& model);
 
 }  // namespace dvrlab

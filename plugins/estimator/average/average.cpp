@@ -23,6 +23,8 @@ class Average : public EstimatorPlugin {
     d.samples = EstimatorDeclaration::Samples::ends;
     if (p.text("rule") == "exact_depth") d.mean_bins = static_cast<int>(p.integer("table_size"));
     d.handles = Terms::every_column | Terms::rgb_bit;
+    // A chromaticity is a source per extinction: what glows without extinction has none.
+    if (p.text("rule") != "trapezoid") d.handles &= ~Terms::bit(Term::E);
     return d;
   }
   double dirac_pulse(const ParameterSet& p) const override { return p.number("approximate_dirac"); }

@@ -25,7 +25,7 @@ constexpr Parameter parameters[] = {
      "published: the entries of equation 22 of Yang et al. 2012 as printed; published_slide: those of the window slide "
      "of Lum et al. 2004. Both only show what the corrections are for, with the plain look-up.",
      Affects::pixels, R"({"estimator":{"lookup":"plain","table_size":64}})", "\"published\""},
-    shading_key,
+    shading_with_barycentre_key,
     {"update", ParameterType::choice, "", "\"full\"", "full|partial",
      "Whether a table that differs from an earlier one of the same run in some of its "
      "values is built again as a whole; "
@@ -52,6 +52,7 @@ class Preintegrated : public EstimatorPlugin {
     // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
     d.cuts_diracs = p.text("lookup") == "corrected";
     d.mean_bins = static_cast<int>(p.integer("depth_table_size"));
+    d.barycentre = p.text("shading") == "barycentre";
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;
   }

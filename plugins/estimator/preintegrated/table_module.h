@@ -16,7 +16,7 @@ extern "C" {
  * sums go on with their last value. */
 #define DVR_TABLE_PAD 8
 #define DVR_TABLE_MOST_COLUMNS 16
-#define DVR_TABLE_MOST_CHANNELS 24
+#define DVR_TABLE_MOST_CHANNELS 32
 
 /* A sum that is not rounded to 53 bits: hi + lo. Differences of prefix sums next to an opaque cell need it. Null: all
  * cells are 0. */

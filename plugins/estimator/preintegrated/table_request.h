@@ -28,7 +28,7 @@ struct OutputChannel {
 
 /// Limits of one build; a caller with more builds a second table.
 inline constexpr int most_columns = 16;
-inline constexpr int most_groups = 6;
+inline constexpr int most_groups = 8;
 
 struct TableRequest {
   bool rgb_extinction = false;  // 3 extinction channels; otherwise the red one serves all

@@ -83,28 +83,31 @@ TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool 
 std::shared_ptr<const Table> table_of(const Medium& medium, double lo, double hi, int n, const TableRequest& request,
                                       double h, bool partial, const BuildMeans& means) {
   static std::mutex mutex;
-  static std::list<std::shared_ptr<const Table>> built;  // the newest first
+  struct Built {
+    std::shared_ptr<const Table> table;
+    bool updated;  // in part: not the bits of a new one
+  };
+  static std::list<Built> built;  // the newest first
   constexpr std::size_t kept = 2;
   Cells cells = integrate_cells(medium, {n, lo, hi});
   const std::lock_guard lock(mutex);
   const auto fits = [&](const Table& t) {
     return t.request() == request && t.h() == h && t.cells().grid == cells.grid;
   };
-  for (const auto& t : built)
-    if (fits(*t) && !changed_cells(t->cells(), cells)) return t;
+  for (const Built& b : built)
+    if (fits(*b.table) && (partial || !b.updated) && !changed_cells(b.table->cells(), cells)) return b.table;
+  while (built.size() >= kept) built.pop_back();  // room for the new one
   std::shared_ptr<const Table> table;
-  for (const auto& t : built) {
-    if (!partial || table != nullptr || !fits(*t)) continue;
-    auto copy = std::make_shared<Table>(t->copy());
+  bool updated = false;
+  for (const Built& b : built) {
+    if (!partial || updated || !fits(*b.table)) continue;
+    auto copy = std::make_shared<Table>(b.table->copy());
     copy->update(cells, means);
     table = copy;
+    updated = true;
   }
-  if (table == nullptr) {
-    built.clear();  // room for the new one
-    table = std::make_shared<Table>(std::move(cells), request, h, means);
-  }
-  built.push_front(table);
-  if (built.size() > kept) built.pop_back();
+  if (table == nullptr) table = std::make_shared<Table>(std::move(cells), request, h, means);
+  built.push_front({table, updated});
   return table;
 }
 
