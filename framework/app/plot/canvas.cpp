@@ -43,10 +43,17 @@ void Canvas::finish() {
   require(cairo_surface_status(surface_.get()), file_);
 }
 
-void Canvas::rectangle(double x, double y, double width, double height, const Rgba& fill) {
+void Canvas::rectangles(const std::vector<Box>& boxes, const Rgba& fill) {
   set(fill);
-  cairo_rectangle(context_.get(), x, y, width, height);
+  for (const Box& b : boxes) cairo_rectangle(context_.get(), b.x, b.y, b.width, b.height);
   cairo_fill(context_.get());
+}
+
+void Canvas::polyline(const std::vector<std::array<double, 2>>& points, const Rgba& stroke, double thickness) {
+  set(stroke);
+  cairo_set_line_width(context_.get(), thickness);
+  for (const auto& p : points) cairo_line_to(context_.get(), p[0], p[1]);
+  cairo_stroke(context_.get());
 }
 
 void Canvas::frame(double x, double y, double width, double height, const Rgba& stroke) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace dvrlab {
 
@@ -25,9 +26,17 @@ class Canvas {
   /// Writes the file.
   void finish();
 
-  void rectangle(double x, double y, double width, double height, const Rgba& fill);
+  struct Box {
+    double x, y, width, height;
+  };
+  void rectangle(double x, double y, double width, double height, const Rgba& fill) {
+    rectangles({{x, y, width, height}}, fill);
+  }
+  /// All as one shape of the file.
+  void rectangles(const std::vector<Box>& boxes, const Rgba& fill);
   void frame(double x, double y, double width, double height, const Rgba& stroke);
   void line(double x0, double y0, double x1, double y1, const Rgba& stroke, double thickness = 1);
+  void polyline(const std::vector<std::array<double, 2>>& points, const Rgba& stroke, double thickness);
   void disc(double x, double y, double radius, const Rgba& fill);
   /// (x, y): the text's base line.
   void text(double x, double y, const std::string& words, double size, Align align = Align::left,

@@ -66,12 +66,14 @@ class PlotWriter {
       canvas_.line(left, y, left + plot_width, y, pale);
       canvas_.text(left - 4, y + 4, "1e" + std::to_string(decade), small_text, Align::right, grey);
     }
+    std::vector<Canvas::Box> bars;
     for (std::size_t b = 0; b < h.count.size(); ++b) {
       const double v = plot_.slope * h.value(b) + plot_.intercept, half = std::abs(plot_.slope) * h.step / 2;
       const double x0 = std::max(x_of(v - half), left), x1 = std::min(x_of(v + half), left + plot_width);
       const double height = most > 0 ? histogram_height * std::log10(1 + static_cast<double>(h.count[b])) / most : 0;
-      if (x1 > x0) canvas_.rectangle(x0, base - height, x1 - x0, height, {0.42, 0.5, 0.6});
+      if (x1 > x0) bars.push_back({x0, base - height, x1 - x0, height});
     }
+    canvas_.rectangles(bars, {0.42, 0.5, 0.6});
     y_ = base;
   }
 
@@ -95,20 +97,15 @@ class PlotWriter {
     canvas_.text(left - 4, y_ + 8, number_text(b.top, 3), small_text, Align::right, grey);
     canvas_.text(left - 4, base, "0", small_text, Align::right, grey);
     checkerboard(base);
-    for (double x = left; x < left + plot_width; ++x) {
-      const double v = value_of(x + 0.5);
-      const Vector3 a = amount_at(b, v), c = color_at(b, v);
-      const double alpha = std::min(std::max({a[0], a[1], a[2]}) / b.top, 1.0);
-      const Rgba fill{std::min(c[0], 1.0), std::min(c[1], 1.0), std::min(c[2], 1.0), alpha};
-      canvas_.rectangle(x, base, 1, strip_height, fill);
-      for (std::size_t channel = 0; channel < 3; ++channel) {
-        if (b.amount.components == 1 && channel > 0) break;
-        const double next = amount_at(b, value_of(x + 1.5))[channel];
-        const Rgba stroke = b.amount.components == 1
-                                ? ink
-                                : Rgba{channel == 0 ? 0.8 : 0.0, channel == 1 ? 0.6 : 0.0, channel == 2 ? 0.8 : 0.0};
-        canvas_.line(x + 0.5, base - height(a[channel]), x + 1.5, base - height(next), stroke, 1.2);
-      }
+    strip(b, base);
+    for (std::size_t channel = 0; channel < (b.amount.components == 1 ? 1u : 3u); ++channel) {
+      std::vector<std::array<double, 2>> curve;
+      for (double x = left; x <= left + plot_width; x += 0.5)
+        curve.push_back({x, base - height(amount_at(b, value_of(x))[channel])});
+      const Rgba stroke = b.amount.components == 1
+                              ? ink
+                              : Rgba{channel == 0 ? 0.8 : 0.0, channel == 1 ? 0.6 : 0.0, channel == 2 ? 0.8 : 0.0};
+      canvas_.polyline(curve, stroke, 1.2);
     }
     for (const Node& n : b.amount.node)
       if (n.value >= plot_.lo && n.value <= plot_.hi) canvas_.disc(x_of(n.value), base - height(n.x[0]), 2.4, ink);
@@ -123,12 +120,35 @@ class PlotWriter {
     y_ += curve_height + strip_height + gap;
   }
 
+  /// The colour, with the amount as its alpha; runs of one colour in 8 bits are one box.
+  void strip(const TfBar& b, double y) {
+    std::array<int, 4> run{};
+    double start = left;
+    const auto draw = [&](double end) {
+      const auto unit = [&](std::size_t k) { return run[k] / 255.0; };
+      if (run[3] > 0) canvas_.rectangle(start, y, end - start, strip_height, {unit(0), unit(1), unit(2), unit(3)});
+      start = end;
+    };
+    for (double x = left; x < left + plot_width; ++x) {
+      const double v = value_of(x + 0.5);
+      const Vector3 a = amount_at(b, v), c = color_at(b, v);
+      const auto byte = [](double t) { return static_cast<int>(std::lround(255 * std::clamp(t, 0.0, 1.0))); };
+      const std::array<int, 4> here{byte(c[0]), byte(c[1]), byte(c[2]), byte(std::max({a[0], a[1], a[2]}) / b.top)};
+      if (here == run) continue;
+      draw(x);
+      run = here;
+    }
+    draw(left + plot_width);
+  }
+
   /// Under what is transparent.
   void checkerboard(double y) {
     const double side = strip_height / 2;
+    std::vector<Canvas::Box> squares;
     for (int row = 0; row < 2; ++row)
       for (int k = row; k * side < plot_width; k += 2)
-        canvas_.rectangle(left + k * side, y + row * side, std::min(side, plot_width - k * side), side, pale);
+        squares.push_back({left + k * side, y + row * side, std::min(side, plot_width - k * side), side});
+    canvas_.rectangles(squares, pale);
   }
 
   const Plot& plot_;
