@@ -229,6 +229,29 @@ TEST_P(Estimators, IsolatedOpaqueEntries) {
   }
 }
 
+// Half a pair, and what no transfer function gives.
+TEST(HybridRefuses, WhatCannotBeMeant) {
+  const auto refusal = [](const json& parts) {
+    json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
+    config["optical_model"] = {{"type", "hybrid"}, {"scattering", {{"opacity", {{0, 0.5}}}}}};
+    config["optical_model"].merge_patch(parts);
+    try {
+      render(config, targets().front());
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const auto expect = [&](const json& parts, const char* words) {
+    EXPECT_NE(refusal(parts).find(words), std::string::npos) << refusal(parts);
+  };
+  EXPECT_EQ(refusal({}), "");
+  expect({{"emission", {{"color", {{0, 1, 1, 1}}}}}}, "colours nothing without emission.intensity");
+  expect({{"surface", {{"color", {{0, 1, 1, 1}}}}}}, "colours nothing without surface.opacity");
+  expect({{"scattering", {{"color", {{0, 1, -1, 1}}}}}}, "is negative");
+  expect({{"absorption", {{"density", {{0, 0.5}}}, {"transmission_color", {{0, 3, 1, 1}}}}}}, "must be in [0, 1]");
+}
+
 TEST(EstimatorsRefuse, EmissionInAveragesOfChromaticity) {
   json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
   config["optical_model"] = {{"type", "hybrid"}, {"emission", {{"intensity", {{0, 1}}}}}};

@@ -1,4 +1,7 @@
 // Particles and surface elements in one medium (Yang et al. 2012, equations 4 to 10 and 24 to 27).
+#include <nlohmann/json.hpp>
+
+#include "framework/interfaces/error.h"
 #include "framework/interfaces/surface_functions.h"
 
 namespace dvrlab::hybrid {
@@ -33,7 +36,18 @@ constexpr Parameter parameters[] = {
 
 class Hybrid : public OpticalModelPlugin {
  public:
-  void check(const ParameterSet& p) const override { SurfaceFunctions::check(p); }
+  void check(const ParameterSet& p) const override {
+    SurfaceFunctions::check(p);
+    // Half a pair does nothing: nobody means that.
+    const auto needs = [&](const char* color, const char* amount, bool other) {
+      if (!p.is_null(color) && p.is_null(amount) && !other)
+        throw InputError(p.path_of(color) + ": colours nothing without " + amount + "; give both or neither");
+    };
+    needs("surface.color", "surface.opacity", !p.json("surface.delta").empty());
+    needs("scattering.color", "scattering.opacity", false);
+    needs("absorption.transmission_color", "absorption.density", false);
+    needs("emission.color", "emission.intensity", false);
+  }
 
   Medium medium(const ParameterSet& p, const ModelContext& context) const override {
     const double dl = p.number("dl_std") * context.length_unit;
