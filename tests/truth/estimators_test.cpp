@@ -245,7 +245,7 @@ TEST(HybridRefuses, WhatCannotBeMeant) {
   const auto expect = [&](const json& parts, const char* words) {
     EXPECT_NE(refusal(parts).find(words), std::string::npos) << refusal(parts);
   };
-  EXPECT_EQ(refusal({}), "");
+  EXPECT_EQ(refusal(json::object()), "");
   expect({{"emission", {{"color", {{0, 1, 1, 1}}}}}}, "colours nothing without emission.intensity");
   expect({{"surface", {{"color", {{0, 1, 1, 1}}}}}}, "colours nothing without surface.opacity");
   expect({{"scattering", {{"color", {{0, 1, -1, 1}}}}}}, "is negative");
