@@ -90,7 +90,7 @@ def times(results):
             devices[backend] = record["backend"]["device"]
     lines = ["# Table 1: times", "",
              "Milliseconds of wall time of the march (uploads and compilation apart), one frame each, without empty-space skipping and",
-             "early termination, from `./dev papers table1`. Ours are half a voxel per step (figure 11: one), the paper does not say its step. The paper's machine",
+             "early termination, from `./dev papers table1`; the first dispatch of a software GPU compiles again, about half a second. Ours are half a voxel per step (figure 11: one), the paper does not say its step. The paper's machine",
              "was an NVIDIA GeForce GT 240; ours, software GPUs included:", ""]
     lines += [f"* {backend}: {device}" for backend, device in sorted(devices.items())]
     lines += ["", "| panel | image | paper | cpu | vulkan | opengl |", "|---|---|---|---|---|---|"]
