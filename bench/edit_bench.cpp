@@ -40,7 +40,7 @@ void edit(const Contender& c, int round, BackendSession& session, Times& times, 
   session.render(scene.job, frame);
   const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start;
   if (!counts) return;
-  for (const auto& [phase, seconds] : scene.times) times[phase].push_back(1e3 * seconds);
+  for (const PhaseTime& t : scene.times) times[t.phase].push_back(1e3 * t.seconds);
   for (const PhaseTime& t : frame.times) times["frame: " + t.phase].push_back(1e3 * t.seconds);
   times["all"].push_back(all.count());
 }

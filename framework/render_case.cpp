@@ -48,7 +48,7 @@ double bytes_of(const FrameJob& job) {
 nlohmann::json scene_section(const Scene& s, double seconds) {
   const Field& f = *s.field;
   nlohmann::json phases = nlohmann::json::object();
-  for (const auto& [phase, spent] : s.times) phases[phase] = spent;
+  for (const PhaseTime& t : s.times) phases[t.phase] = t.seconds;
   nlohmann::json section = {
       {"source", f.source},
       {"sha256", f.sha256},

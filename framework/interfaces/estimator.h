@@ -23,6 +23,11 @@ struct EstimatorDeclaration {
   bool needs_nodes = false;
   /// Bins of the medium's cumulative tables (medium_mean of framework/kernel/mean.kernel); 0: it does not use them.
   int mean_bins = 0;
+  /// Light factors inside a segment: the mode of light_of_segment (framework/kernel/light.kernel), the place of the
+  /// word in the shared key `shading`.
+  int shading = 0;
+  /// False: it is built on numbers of fp32, and precision "fp64" is refused.
+  bool fp64 = true;
   /// Its shading asks for the barycentre of the surfaces in a segment (mean_surface_place).
   bool barycentre = false;
   /// The framework cuts segments at Dirac terms: the kernel never sees one inside a segment, and prepare() none at all.

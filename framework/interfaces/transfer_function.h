@@ -44,6 +44,9 @@ struct Extinction {
 Extinction extinction_of(const Curve& opacity, const Curve* transmission, double standard, const std::string& name,
                          const ModelContext& context);
 
+/// For Plugin::check: a colour without the amount that it colours does nothing. Throws InputError at its path.
+void require_amount(const ParameterSet& p, const char* color, const char* amount);
+
 /// A colour transfer function: decoded from sRGB where `context.linear_color` asks for it.
 Curve color_curve(const Nodes& nodes, const ModelContext& context);
 

@@ -6,6 +6,7 @@
 #include "framework/interfaces/error.h"
 #include "framework/scene/cells.h"
 #include "framework/scene/discrete_surfaces.h"
+#include "framework/scene/scene.h"
 #include "framework/scene/tf_domain.h"
 
 namespace dvrlab {
@@ -15,6 +16,14 @@ std::string short_number(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", x);
   return text;
+}
+
+/// Values that nothing passes, one by one: isosurfaces of opacity 1.
+std::vector<double> isosurfaces(const Medium& medium) {
+  std::vector<double> values;
+  for (const OpaqueRange& r : medium.opaque)
+    if (r.v0 == r.v1) values.push_back(r.v0);
+  return values;
 }
 
 /// "" or the way out for terms that samples cannot see.
@@ -42,11 +51,13 @@ Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxe
   Medium medium =
       registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
   const double pulse = registry.get<EstimatorPlugin>("estimator", c.estimator.type).dirac_pulse(c.estimator.parameters);
-  if (pulse == 0 || (medium.dirac.empty() && medium.opaque.empty())) return medium;
-  for (const Dirac& d : medium.dirac)
-    if (static_cast<float>(d.v - pulse / 2) >= static_cast<float>(d.v))
+  std::vector<double> surfaces = isosurfaces(medium);
+  for (const Dirac& d : medium.dirac) surfaces.push_back(d.v);
+  if (pulse == 0 || surfaces.empty()) return medium;
+  for (const double v : surfaces)
+    if (static_cast<float>(v - pulse / 2) >= static_cast<float>(v))
       throw InputError("estimator.approximate_dirac: a pulse of width " + short_number(pulse) + " at value " +
-                       short_number(d.v) + " is narrower than fp32 resolves; give a wider one");
+                       short_number(v) + " is narrower than fp32 resolves; give a wider one");
   notes.push_back("estimator: Dirac terms are approximated by pulses of width " + short_number(pulse));
   return with_pulses(medium, pulse);
 }
@@ -73,14 +84,15 @@ void refuse_impossible(const ResolvedCase& c, const Medium& medium, const Estima
     throw InputError("sampling.type: \"cells\" ends segments where the field is no longer linear, but estimator \"" +
                      c.estimator.type + "\" needs equally spaced samples for the terms of optical model \"" +
                      c.optical_model.type + "\"; choose another estimator");
-  const bool isosurface =
-      std::any_of(medium.opaque.begin(), medium.opaque.end(), [](const OpaqueRange& r) { return r.v0 == r.v1; });
-  if (isosurface && d.samples == EstimatorDeclaration::Samples::centre)
+  if (!isosurfaces(medium).empty() && d.samples == EstimatorDeclaration::Samples::centre)
     throw InputError(
         "estimator.type: estimator \"" + c.estimator.type +
         "\" looks at the middle of segments, where it does not see an isosurface of opacity 1; choose another "
         "estimator or a lower opacity" +
         hint_of(c));
+  if (!d.fp64 && precision_of(c) == Precision::fp64)
+    throw InputError("precision: estimator \"" + c.estimator.type +
+                     "\" computes in fp32 only; choose another estimator for \"fp64\", for example exact");
   if (d.needs_nodes && c.optical_model.parameters.text("tf") != "nodes")
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" integrates between the transfer functions' nodes; set optical_model.tf to \"nodes\"");

@@ -1,7 +1,6 @@
 #include "framework/scene/scene.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "framework/interfaces/error.h"
@@ -13,6 +12,7 @@
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
 #include "framework/scene/mean_table.h"
+#include "framework/scene/phase_clock.h"
 #include "framework/scene/sampling.h"
 
 namespace dvrlab {
@@ -30,29 +30,6 @@ std::string sampler_of(const ResolvedCase& c, const Field& field) {
   const std::string wanted = c.data.parameters.text("sampler");
   return wanted.empty() ? field.sampler : wanted;
 }
-
-/// The estimator's mode of light_of_segment, where it has the shared key.
-int shading_inside(const ParameterSet& estimator) {
-  const auto& keys = estimator.declared();
-  const bool has =
-      std::any_of(keys.begin(), keys.end(), [](const Parameter& p) { return p.name == std::string("shading"); });
-  return has ? estimator.choice_index("shading") : 0;
-}
-
-/// Splits the time of a build into phases.
-class PhaseClock {
- public:
-  explicit PhaseClock(std::vector<std::pair<std::string, double>>& times) : times_(times) {}
-  void end(const char* phase) {
-    const auto now = std::chrono::steady_clock::now();
-    times_.emplace_back(phase, std::chrono::duration<double>(now - start_).count());
-    start_ = now;
-  }
-
- private:
-  std::vector<std::pair<std::string, double>>& times_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -102,12 +79,16 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   scene.notes = field->notes;
   scene.step = step_of(c, *field, scene.notes);
 
-  PhaseClock clock(scene.times);
+  PhaseClock clock;
+  const auto end_phase = [&](const char* phase) {
+    scene.times.push_back({phase, clock.wall(), clock.cpu()});
+    clock = {};
+  };
   scene.medium = stored_medium(c, registry, *field, scene.notes);
   const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
   const EstimatorDeclaration declared = estimator.declaration(c.estimator.parameters);
   refuse_impossible(c, scene.medium, declared);
-  clock.end("medium");
+  end_phase("medium");
 
   FrameJob& job = scene.job;
   const nlohmann::json& size = c.image.json("size");
@@ -148,7 +129,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
       job.frame.uniforms.end(),
       {Uniform::constant_integer("frame_samples_ends", declared.samples == EstimatorDeclaration::Samples::ends ? 1 : 0),
        Uniform::constant_integer("frame_cuts_diracs", declared.cuts_diracs ? 1 : 0),
-       Uniform::constant_integer("frame_segment_shading", shading_inside(c.estimator.parameters)),
+       Uniform::constant_integer("frame_segment_shading", declared.shading),
        Uniform::constant_integer("frame_neighbours", declared.neighbours && surfaces ? 1 : 0),
        Uniform::constant_integer("frame_gradient", gradient ? 1 : 0)});
 
@@ -168,12 +149,12 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);
   Medium seen = scene.medium;
   if (declared.cuts_diracs) seen.dirac.clear();
-  clock.end("frame tables");
+  end_phase("frame tables");
   estimator.prepare(c.estimator.parameters,
                     {&seen, options.lo, options.hi, scene.step, job.full,
                      shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder},
                     job.estimator);
-  clock.end("estimator tables");
+  end_phase("estimator tables");
   return scene;
 }
 

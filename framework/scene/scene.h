@@ -19,10 +19,10 @@ struct Scene {
   std::shared_ptr<const Field> field;
   Medium medium;  // in stored units
   FrameJob job;
-  double step = 0;        // world units
-  int rays_per_side = 1;  // rays per pixel along x and along y: the job's image is so much larger
-  std::vector<std::pair<std::string, double>> times;  // seconds per phase of the build: medium, tables
-  std::vector<std::string> notes;                     // conversions, caps: what the log and the result file say
+  double step = 0;                 // world units
+  int rays_per_side = 1;           // rays per pixel along x and along y: the job's image is so much larger
+  std::vector<PhaseTime> times;    // of the build: medium, frame tables, estimator tables
+  std::vector<std::string> notes;  // conversions, caps: what the log and the result file say
 };
 
 /// Loads the case's data (through a cache by resolved data section, so that an experiment loads each file once).

@@ -51,6 +51,7 @@ void SurfaceFunctions::check(const ParameterSet& p) {
   for (std::size_t k = 0; k < list.size(); ++k)
     if (const std::string wrong = wrong_delta(list[k]); !wrong.empty())
       throw InputError(path + "[" + std::to_string(k) + "]: " + wrong);
+  if (list.empty()) require_amount(p, "surface.color", "surface.opacity");
 }
 
 SurfaceFunctions::SurfaceFunctions(const ParameterSet& p, const Curve* shared_color, const ModelContext& context)

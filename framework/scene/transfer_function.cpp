@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/interfaces/error.h"
+
 namespace dvrlab {
 
 namespace {
@@ -29,6 +31,11 @@ std::vector<double> Curve::breaks() const {
   for (const Node& n : nodes_)
     if (r.empty() || n.value > r.back()) r.push_back(n.value);
   return r;
+}
+
+void require_amount(const ParameterSet& p, const char* color, const char* amount) {
+  if (!p.is_null(color) && p.is_null(amount))
+    throw InputError(p.path_of(color) + ": colours nothing without " + amount + "; give both or neither");
 }
 
 Curve color_curve(const Nodes& nodes, const ModelContext& context) {

@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include "framework/interfaces/error.h"
+#include "framework/scene/phase_clock.h"
 #include "framework/shader/compile.h"
 #include "framework/shader/compose.h"
-#include "framework/shader/phase_clock.h"
 
 namespace dvrlab {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "framework/config/experiment.h"
 #include "tests/truth/ray_cases.h"
 
 namespace dvrlab::test {
@@ -156,6 +157,19 @@ TEST(PreintegratedUpdates, PartOfATable) {
   const FrameImage full = image_of(5, "full");
   EXPECT_LE(largest_difference(partial, full), 3e-7);
   EXPECT_GT(largest_difference(image_of(3, "full"), full), 1e-2) << "the edit does not show";
+}
+
+TEST(PreintegratedRefuses, Fp64WhenTheConfigIsChecked) {
+  json config = ray_config(ramp_field(0, 1, 1), 1, 0.5);
+  config["optical_model"] = model({{0, 1}}, {{0, 1, 1, 1}});
+  config["estimator"] = {{"type", "preintegrated"}};
+  config["precision"] = "fp64";
+  try {
+    plan_experiment(parse_document(config.dump(), "test.json", ""), registry());
+    FAIL() << "it was accepted";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("precision"), std::string::npos) << e.what();
+  }
 }
 
 TEST(PreintegratedRefuses, PublishedVariantsElsewhere) {

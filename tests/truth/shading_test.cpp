@@ -87,6 +87,31 @@ TEST_P(Shading, NearestClippingPlaneWins) {
   })
 }
 
+// A Dirac term in a segment has the light of the segment, as the key `shading` says, whoever integrates: also where
+// the framework cuts the segment there.
+TEST_P(Shading, DiracTermsAreLitLikeTheirSegment) {
+  json config = ray_config({{"field", "radial"}, {"center", {1, 0.6, 0}}, {"offset", 0}, {"scale", 0.5}}, 3, 3);
+  config["optical_model"] = {{"type", "hybrid"},
+                             {"tf", "nodes"},
+                             {"scattering", {{"opacity", {{0, 0.1}}}, {"color", {{0, 0.1, 0.1, 0.1}}}}},
+                             {"surface", {{"delta", {{{"value", 0.7}, {"opacity", 0.6}}}}}}};
+  config["lights"] = {{{"type", "directional"}, {"direction", {0.2, 1, 0.4}}}};
+  config["illumination"] = {{{"type", "blinn_phong"}, {"specular", 0.5}, {"shininess", 3}}};
+  for (const char* shading : {"constant", "linear"}) {
+    SKIP_WHEN_NOT_SUPPORTED({
+      config["estimator"] = {{"type", "exact"}, {"shading", shading}};
+      const FrameImage exact = image(config);
+      config["estimator"]["dirac_shading"] = "inside";
+      EXPECT_GT(largest_difference(image(config), exact), 1e-3) << "negative control: its own place is lit otherwise";
+      config["estimator"] = {{"type", "preintegrated"}, {"shading", shading}};
+      EXPECT_LE(largest_difference(image(config), exact), 2e-5) << shading;
+      config["estimator"]["lookup"] = "plain";
+      config["estimator"]["table_size"] = 4096;
+      EXPECT_LE(largest_difference(image(config), exact), 2e-3) << shading;
+    })
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, Shading, testing::ValuesIn(targets()), target_name);
 
 }  // namespace

@@ -90,7 +90,12 @@ class PlotWriter {
 
   /// The amount as a curve with its nodes, over a strip with the colour and, as alpha, the amount.
   void bar(const TfBar& b) {
-    canvas_.text(left, y_ + 11, b.title, small_text);
+    const auto shown = [&](double v) { return v >= plot_.lo && v <= plot_.hi; };
+    const auto hidden =
+        std::count_if(b.spikes.begin(), b.spikes.end(), [&](const TfSpike& s) { return !shown(s.value); });
+    canvas_.text(left, y_ + 11,
+                 b.title + (hidden > 0 ? " (" + std::to_string(hidden) + " beyond the data's values)" : ""),
+                 small_text);
     y_ += caption_height;
     const double base = y_ + curve_height;
     const auto height = [&](double amount) { return curve_height * amount / b.top; };
@@ -108,8 +113,9 @@ class PlotWriter {
       canvas_.polyline(curve, stroke, 1.2);
     }
     for (const Node& n : b.amount.node)
-      if (n.value >= plot_.lo && n.value <= plot_.hi) canvas_.disc(x_of(n.value), base - height(n.x[0]), 2.4, ink);
+      if (shown(n.value)) canvas_.disc(x_of(n.value), base - height(n.x[0]), 2.4, ink);
     for (const TfSpike& s : b.spikes) {
+      if (!shown(s.value)) continue;
       const double x = x_of(s.value), top = base - height(s.opacity);
       canvas_.line(x, base + strip_height, x, top, ink, 3.4);
       canvas_.line(x, base + strip_height - 0.7, x, top + 0.7, {s.color[0], s.color[1], s.color[2]}, 2);

@@ -19,6 +19,7 @@ class Approximative : public EstimatorPlugin {
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
+    d.shading = p.choice_index("shading");
     d.mean_bins = static_cast<int>(p.integer("table_size"));
     d.barycentre = p.text("shading") == "barycentre";
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;

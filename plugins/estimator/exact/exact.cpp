@@ -41,9 +41,10 @@ std::vector<double> gauss_rows(int points) {
 
 class Exact : public EstimatorPlugin {
  public:
-  EstimatorDeclaration declaration(const ParameterSet&) const override {
+  EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
+    d.shading = p.choice_index("shading");
     d.needs_nodes = true;
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;

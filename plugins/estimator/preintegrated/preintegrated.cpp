@@ -49,6 +49,8 @@ class Preintegrated : public EstimatorPlugin {
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
+    d.shading = p.choice_index("shading");
+    d.fp64 = false;  // its table holds floats
     // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
     d.cuts_diracs = p.text("lookup") == "corrected";
     d.mean_bins = static_cast<int>(p.integer("depth_table_size"));

@@ -1,7 +1,10 @@
 #include "plugins/estimator/preintegrated/published.h"
 
+#include <array>
 #include <atomic>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "backends/cpu/isa.h"
 #include "plugins/estimator/preintegrated/definition.h"
@@ -24,23 +27,41 @@ std::vector<Entry> entries_of(const Table& t, Variant variant, const SourceColum
   return entries;
 }
 
+/// What an output is computed from; a column's total and its back part share it.
+struct From {
+  SourceColumn source;
+  int extinction;
+  bool operator==(const From&) const = default;
+};
+
+From from_of(const TableRequest& r, const OutputChannel& o) {
+  if (o.kind == Kind::transmittance) return {{}, r.rgb_extinction ? o.index : 0};
+  const SourceColumn source = r.columns[std::size_t(o.index)];
+  return {source, r.rgb_extinction ? source.channel : 0};
+}
+
 void fill_diagonals(Table& t, Variant variant, int m) {
   const TableRequest& r = t.request();
   const int n = t.values();
+  std::vector<std::pair<From, std::array<std::vector<Entry>, 2>>> known;  // ascending, descending
+  const auto entries_from = [&](const From& from) -> const std::array<std::vector<Entry>, 2>& {
+    for (const auto& [other, entries] : known)
+      if (other == from) return entries;
+    return known
+        .emplace_back(from, std::array{entries_of(t, variant, from.source, from.extinction, m, false),
+                                       entries_of(t, variant, from.source, from.extinction, m, true)})
+        .second;
+  };
   for (int o = 0; o < static_cast<int>(r.outputs.size()); ++o) {
     const OutputChannel output = r.outputs[std::size_t(o)];
     if (output.kind == Kind::zero) continue;
-    const bool through = output.kind == Kind::transmittance;
-    const SourceColumn source = through ? SourceColumn{} : r.columns[std::size_t(output.index)];
-    const int extinction = !r.rgb_extinction ? 0 : through ? output.index : source.channel;
-    for (const bool descending : {false, true}) {
-      const std::vector<Entry> entries = entries_of(t, variant, source, extinction, m, descending);
-      for (int i = 0; i + m < n; ++i) {
-        const Entry& e = entries[std::size_t(i)];
-        const double x = through ? e.T : output.kind == Kind::back ? e.B : e.C;
-        const int front = descending ? n - 1 - i : i;
-        t.set(front, descending ? front - m : front + m, o, static_cast<float>(x));
-      }
+    const auto& entries = entries_from(from_of(r, output));
+    for (int i = 0; i + m < n; ++i) {
+      const auto value = [&](const Entry& e) {
+        return static_cast<float>(output.kind == Kind::transmittance ? e.T : output.kind == Kind::back ? e.B : e.C);
+      };
+      t.set(i, i + m, o, value(entries[0][std::size_t(i)]));
+      t.set(n - 1 - i, n - 1 - i - m, o, value(entries[1][std::size_t(i)]));
     }
   }
 }

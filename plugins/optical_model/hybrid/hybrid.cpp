@@ -1,4 +1,5 @@
 // Particles and surface elements in one medium (Yang et al. 2012, equations 4 to 10 and 24 to 27).
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "framework/interfaces/error.h"
@@ -38,15 +39,14 @@ class Hybrid : public OpticalModelPlugin {
  public:
   void check(const ParameterSet& p) const override {
     SurfaceFunctions::check(p);
-    // Half a pair does nothing: nobody means that.
-    const auto needs = [&](const char* color, const char* amount, bool other) {
-      if (!p.is_null(color) && p.is_null(amount) && !other)
-        throw InputError(p.path_of(color) + ": colours nothing without " + amount + "; give both or neither");
-    };
-    needs("surface.color", "surface.opacity", !p.json("surface.delta").empty());
-    needs("scattering.color", "scattering.opacity", false);
-    needs("absorption.transmission_color", "absorption.density", false);
-    needs("emission.color", "emission.intensity", false);
+    require_amount(p, "scattering.color", "scattering.opacity");
+    require_amount(p, "absorption.transmission_color", "absorption.density");
+    require_amount(p, "emission.color", "emission.intensity");
+    if (p.is_null("absorption.transmission_color")) return;
+    for (const Node& n : p.nodes("absorption.transmission_color").node)
+      if (std::max({n.x[0], n.x[1], n.x[2]}) > 1)
+        throw InputError(p.path_of("absorption.transmission_color") + ": more than 1 at value " +
+                         nlohmann::json(n.value).dump() + "; matter that only absorbs lets at most everything pass");
   }
 
   Medium medium(const ParameterSet& p, const ModelContext& context) const override {
