@@ -132,7 +132,7 @@ void empty_distances(benchmark::State& state) {
   const MediumTableOptions options{false, 256, 0.0, 1.0, false, false, true};
   const auto cells = macrocells_of(dynamic_cast<const GridField&>(*s.field));
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(empty_distance(*cells, OccupiedBins(s.medium, options)));
+    benchmark::DoNotOptimize(empty_distance(*cells, OccupiedBins(s.medium, options, 0)));
 }
 
 /// The shipped CT, with its decompression and its hash.

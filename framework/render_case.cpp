@@ -133,6 +133,7 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   }
   record.times = phase_statistics(repeats);
   record.counters = frame.counters;
+  record.counters.table_fetches = record.counters.samples * static_cast<std::uint64_t>(scene.job.table_fetches);
   return averaged(std::move(frame.image), scene.rays_per_side);
 }
 

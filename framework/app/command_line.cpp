@@ -74,6 +74,14 @@ struct Definition {
         ->delimiter(',')
         ->expected(2);
 
+    CLI::App& table = add("table", table_verb);
+    config(table);
+    option(table, "--points", o.points, "N", "values of v0 and of v1, 2 to 2048")
+        ->check(CLI::Range(2, 2048))
+        ->capture_default_str();
+    option(table, "--repeat", o.repeat, "N", "timed builds of each table, 1 to 1000")->check(CLI::Range(1, 1000));
+    option(table, "--out", o.out, "DIR", "results go to DIR/<experiment>/tables")->capture_default_str();
+
     option(add("list", list_verb), "kind", o.name, "KIND", "only this kind");
     option(add("describe", describe_verb), "type", o.name, "TYPE",
            "direct, estimator.direct, camera.perspective, image")

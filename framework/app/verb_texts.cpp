@@ -74,6 +74,17 @@ const std::vector<VerbText>& verb_texts() {
        "the segments as a list",
        {{"dvrlab probe my.json --pixel 320,320", "the ray through the middle of a 640 x 640 image"},
         {"dvrlab probe my.json --pixel 320,320 --json", "the same for programs"}}},
+      {"table",
+       images,
+       "size, build time and errors of an estimator's tables",
+       "Studies the tables of every case of a config: their size, the time to build them, and the error of one segment "
+       "of the nominal step between any two values v0 and v1 against the exact integral in fp64, over a grid of pairs: "
+       "worst and rms, in classes of the segment's optical depth, and as a picture (v0 to the right, v1 upwards; black "
+       "1e-8, then blue, green, orange every two decades, white 1). Axes work as in an experiment: estimators, table "
+       "sizes, families of transfer functions. Light factors are 1.",
+       "the same numbers as a list",
+       {{"dvrlab table configs/papers/lee_shin2013/fig05.json --points 64", "the methods of a figure, in out/fig05/tables"},
+        {"dvrlab table my.json --set estimator.type=power_series --repeat 20 --json", "one of them, built 20 times"}}},
       {"list",
        parts,
        "the plugins that were found, and the framework's own types",

@@ -25,6 +25,7 @@ struct Options {
   bool force = false;      // info
   std::string plot;        // info --plot
   int bins = 0;            // info; 0: 20 for people, 256 for machines
+  int points = 128;        // table
 };
 
 int info_verb(const Options& options);
@@ -33,6 +34,7 @@ int run_verb(const Options& options);
 int validate_verb(const Options& options);
 int compare_verb(const Options& options);
 int probe_verb(const Options& options);
+int table_verb(const Options& options);
 int list_verb(const Options& options);
 int describe_verb(const Options& options);
 int doctor_verb(const Options& options);

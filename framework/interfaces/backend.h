@@ -28,6 +28,8 @@ struct FrameJob {
   KernelUnit sampler;
   KernelUnit estimator;
   std::string kernel_folder;  // framework/kernel
+  /// Fetches of four numbers from transfer function and estimator tables per segment, at the most.
+  int table_fetches = 0;
   /// Bytes of one storage buffer binding on a GPU, when lower than what the device offers; 0: the device's own.
   std::uint64_t gpu_buffer_limit = 0;
 };
@@ -46,6 +48,9 @@ struct FrameImage {
 
 struct FrameCounters {
   std::uint64_t samples = 0;     // segments that were composited
+  /// Fetches of four numbers from transfer function and estimator tables, at the most: FrameJob::table_fetches per
+  /// sample, set by who renders the case.
+  std::uint64_t table_fetches = 0;
   std::uint64_t skipped = 0;     // segments skipped as empty
   std::uint64_t terminated = 0;  // rays ended by early termination
 };

@@ -6,11 +6,19 @@
 #include <cstdint>
 
 #include "framework/interfaces/backend.h"
+#include "framework/interfaces/bin_medium.h"
 #include "framework/interfaces/kernel_unit.h"
 #include "framework/interfaces/medium.h"
 #include "framework/interfaces/plugin.h"
 
 namespace dvrlab {
+
+/// `opaque_prediction`: how a segment finds the first opaque value on its way (Lee and Shin 2013, section 4.2).
+enum class OpaquePrediction {
+  both,       // the next opaque value above for ascending segments, below for descending ones
+  published,  // above only, and not when the segment ends there: as the paper prints it
+  off         // there are no opaque values: `max_extinction` stands for infinite extinction
+};
 
 struct EstimatorDeclaration {
   enum class Samples { ends, centre };
@@ -26,6 +34,15 @@ struct EstimatorDeclaration {
   /// Light factors inside a segment: the mode of light_of_segment (framework/kernel/light.kernel), the place of the
   /// word in the shared key `shading`.
   int shading = 0;
+  /// Cells over the range of values of the coarsest table that it sees the medium through, 0 when it asks pointwise: a
+  /// value that contributes nothing may be smeared by so much.
+  int cells = 0;
+  /// How often a segment asks medium_at and medium_mean, for the count of table fetches. What it reads from tables of
+  /// its own is KernelUnit::fetches.
+  int points = 0, means = 0;
+  OpaquePrediction prediction = OpaquePrediction::both;
+  /// With prediction off: per length unit of the optical model.
+  double max_extinction = 0;
   /// False: it is built on numbers of fp32, and precision "fp64" is refused.
   bool fp64 = true;
   /// Its shading asks for the barycentre of the surfaces in a segment (mean_surface_place).
@@ -45,6 +62,7 @@ struct EstimatorContext {
   bool lit_particles;   // m differs from 1
   Precision precision;  // of the kernel
   std::string folder;   // of the plugin: where its own libraries lie
+  const BinMedium* bins;  // of `mean_bins`, reshaped by shape_bins; empty without
 };
 
 class EstimatorPlugin : public Plugin {
@@ -52,6 +70,9 @@ class EstimatorPlugin : public Plugin {
   virtual EstimatorDeclaration declaration(const ParameterSet& parameters) const = 0;
   /// Width, in the transfer functions' values, of the pulses of tau_s that stand for Dirac terms; 0: none do.
   virtual double dirac_pulse(const ParameterSet& /*parameters*/) const { return 0; }
+  /// Reshapes the bins of the medium before cumulative tables are made of them. `step`: the nominal length of a
+  /// segment, world units.
+  virtual void shape_bins(const ParameterSet& /*parameters*/, double /*step*/, BinMedium& /*bins*/) const {}
   /// Bytes that prepare() will allocate at the most for a medium with these terms: its tables, and what it needs to
   /// build them.
   virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/, const Terms& /*terms*/) const { return 0; }

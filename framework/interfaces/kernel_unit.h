@@ -50,6 +50,8 @@ struct KernelUnit {
   std::string folder;  // where <plugin>.kernel and <plugin>.<isa>.so lie
   std::vector<Uniform> uniforms;
   std::vector<Buffer> buffers;
+  /// An estimator's: fetches of four numbers from its own tables per segment, at the most.
+  int fetches = 0;
 };
 
 /// True for a sampler whose kernel text defines walk_next: it goes from face to face (framework/kernel/walk.glsl)

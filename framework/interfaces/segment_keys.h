@@ -1,6 +1,9 @@
 // Keys that estimators share, so that they mean the same everywhere.
 #pragma once
 
+#include <string>
+
+#include "framework/interfaces/estimator.h"
 #include "framework/interfaces/parameter.h"
 
 namespace dvrlab {
@@ -30,6 +33,71 @@ inline constexpr Parameter shading_with_barycentre_key{
     Affects::pixels,
     "",
     "\"barycentre\""};
+
+/// With a cubic of the position too.
+inline constexpr Parameter shading_with_cubic_key{
+    "shading",
+    ParameterType::choice,
+    "",
+    "\"linear\"",
+    "constant|linear|nonlinear",
+    "Light factors inside a segment: those of its middle; those of both ends and linear between (interpolated "
+    "pre-integrated lighting); the cubic through those of the linearly interpolated, normalised gradient at 0, 1/3, "
+    "2/3 and 1 of the segment (non-linear gradient interpolation, Guetat et al. 2010).",
+    Affects::pixels,
+    "",
+    "\"nonlinear\""};
+
+/// All of them.
+inline constexpr Parameter shading_of_every_kind_key{
+    "shading",
+    ParameterType::choice,
+    "",
+    "\"linear\"",
+    "constant|linear|barycentre|nonlinear",
+    "Light factors inside a segment: those of its middle; those of both ends and linear between (interpolated "
+    "pre-integrated lighting); those at the barycentre of its surfaces (Yang et al. 2012, equation 18); the cubic "
+    "through those of the linearly interpolated, normalised gradient at 0, 1/3, 2/3 and 1 of the segment (non-linear "
+    "gradient interpolation, Guetat et al. 2010).",
+    Affects::pixels,
+    "",
+    "\"nonlinear\""};
+
+/// The mode of light_of_segment that the key `shading` asks for.
+inline int segment_shading(const ParameterSet& p) {
+  const std::string word = p.text("shading");
+  return word == "constant" ? 0 : word == "linear" ? 1 : word == "barycentre" ? 2 : 3;
+}
+
+/// The keys of opaque prediction (framework/interfaces/estimator.h), for estimators with one-dimensional tables.
+inline constexpr Parameter opaque_prediction_key{
+    "opaque_prediction",
+    ParameterType::choice,
+    "",
+    "\"both\"",
+    "both|published|off",
+    "How a segment finds the first opaque value on its way. both: the next one in its direction; published: the next "
+    "one above only, as Lee and Shin 2013 print it, which loses segments of falling values; off: none, "
+    "max_extinction stands for infinite extinction.",
+    Affects::pixels,
+    R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0.3,0],[0.6,0.1],[0.6,1],[0.7,1],[0.7,0]]}})",
+    "\"off\""};
+inline constexpr Parameter max_extinction_key{
+    "max_extinction",
+    ParameterType::number,
+    "1/length",
+    "16.6",
+    "(0,inf)",
+    "With opaque_prediction off: the extinction of opaque values, per length unit of the optical model.",
+    Affects::pixels,
+    R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0.3,0],[0.6,0.1],[0.6,1],[0.7,1],[0.7,0]]},"estimator":{"opaque_prediction":"off"}})",
+    "2"};
+
+/// Fills an estimator's declaration from them.
+inline void declare_prediction(const ParameterSet& p, EstimatorDeclaration& d) {
+  d.prediction = static_cast<OpaquePrediction>(p.choice_index("opaque_prediction"));
+  d.max_extinction = p.number("max_extinction");
+}
 
 inline constexpr Parameter approximate_dirac_key{
     "approximate_dirac",

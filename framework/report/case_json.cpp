@@ -37,7 +37,10 @@ json backend_of(const CaseRecord& r) {
           {"detail", r.device.detail},
           {"seed", top.integer("seed")},
           {"counters",
-           {{"samples", r.counters.samples}, {"skipped", r.counters.skipped}, {"terminated", r.counters.terminated}}},
+           {{"samples", r.counters.samples},
+            {"table_fetches", r.counters.table_fetches},
+            {"skipped", r.counters.skipped},
+            {"terminated", r.counters.terminated}}},
           {"memory_bytes", memory},
           {"repeats", top.integer("repeat")},
           {"times", times}};

@@ -114,6 +114,7 @@ void ResultsTree::write_table(const std::vector<CaseRecord>& records) const {
     table.set("reason", one_line(r.reason));
     if (!r.ran) continue;
     table.set("samples", std::to_string(r.counters.samples));
+    table.set("table_fetches", std::to_string(r.counters.table_fetches));
     table.set("skipped", std::to_string(r.counters.skipped));
     table.set("terminated", std::to_string(r.counters.terminated));
     for (const PhaseStatistics& t : r.times) {

@@ -34,6 +34,31 @@ std::string hint_of(const ResolvedCase& c) {
   return pulses ? "; estimator.approximate_dirac can stand pulses in for Dirac terms" : "";
 }
 
+/// What an estimator that predicts no opaque values sees in their place.
+Medium without_prediction(const ResolvedCase& c, const EstimatorPlugin& estimator, Medium medium, double length_unit,
+                          std::vector<std::string>& notes) {
+  const EstimatorDeclaration d = estimator.declaration(c.estimator.parameters);
+  if (d.prediction != OpaquePrediction::off || medium.opaque.empty()) return medium;
+  notes.push_back("estimator: opaque values have the extinction " + short_number(d.max_extinction) +
+                  " per length unit, opaque isosurfaces the depth 16.6");
+  return without_opaque_values(medium, d.max_extinction / length_unit);
+}
+
+/// The medium with pulses in place of Dirac terms, where the estimator asks for them.
+Medium with_pulses_of(const ResolvedCase& c, Medium medium, const EstimatorPlugin& estimator,
+                      std::vector<std::string>& notes) {
+  const double pulse = estimator.dirac_pulse(c.estimator.parameters);
+  std::vector<double> surfaces = isosurfaces(medium);
+  for (const Dirac& d : medium.dirac) surfaces.push_back(d.v);
+  if (pulse == 0 || surfaces.empty()) return medium;
+  for (const double v : surfaces)
+    if (static_cast<float>(v - pulse / 2) >= static_cast<float>(v))
+      throw InputError("estimator.approximate_dirac: a pulse of width " + short_number(pulse) + " at value " +
+                       short_number(v) + " is narrower than fp32 resolves; give a wider one");
+  notes.push_back("estimator: Dirac terms are approximated by pulses of width " + short_number(pulse));
+  return with_pulses(medium, pulse);
+}
+
 }  // namespace
 
 Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxel, double value_min, double value_max,
@@ -50,16 +75,9 @@ Medium model_medium(const ResolvedCase& c, const Registry& registry, double voxe
   context.notes = &notes;
   Medium medium =
       registry.get<OpticalModelPlugin>("optical_model", c.optical_model.type, "optical_model.type").medium(p, context);
-  const double pulse = registry.get<EstimatorPlugin>("estimator", c.estimator.type).dirac_pulse(c.estimator.parameters);
-  std::vector<double> surfaces = isosurfaces(medium);
-  for (const Dirac& d : medium.dirac) surfaces.push_back(d.v);
-  if (pulse == 0 || surfaces.empty()) return medium;
-  for (const double v : surfaces)
-    if (static_cast<float>(v - pulse / 2) >= static_cast<float>(v))
-      throw InputError("estimator.approximate_dirac: a pulse of width " + short_number(pulse) + " at value " +
-                       short_number(v) + " is narrower than fp32 resolves; give a wider one");
-  notes.push_back("estimator: Dirac terms are approximated by pulses of width " + short_number(pulse));
-  return with_pulses(medium, pulse);
+  const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type);
+  return with_pulses_of(c, without_prediction(c, estimator, std::move(medium), context.length_unit, notes), estimator,
+                        notes);
 }
 
 Medium stored_medium(const ResolvedCase& c, const Registry& registry, const Field& field,

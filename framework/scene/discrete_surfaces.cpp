@@ -62,15 +62,163 @@ Curve pulse(const Dirac& d, double width) {
   return Curve(std::vector<Node>{{d.v - width / 2, zero}, {d.v, top}, {d.v + width / 2, zero}});
 }
 
+// Colours of a range at v, of the whole range's linear ones.
+Vector3 color_at(const OpaqueRange& o, const std::array<Vector3, 2>& ends, double v) {
+  const double u = (v - o.v0) * inverse_width(o);
+  Vector3 r;
+  for (std::size_t c = 0; c < 3; ++c) r[c] = ends[0][c] + (ends[1][c] - ends[0][c]) * u;
+  return r;
+}
+
+OpaqueRange part_of(const OpaqueRange& o, double v0, double v1) {
+  OpaqueRange r;
+  r.v0 = v0;
+  r.v1 = v1;
+  r.P = {color_at(o, o.P, v0), color_at(o, o.P, v1)};
+  r.S = {color_at(o, o.S, v0), color_at(o, o.S, v1)};
+  r.W = {color_at(o, o.W, v0), color_at(o, o.W, v1)};
+  return r;
+}
+
+// Adds what of `range` lies outside the ranges that are there.
+void add_outside(std::vector<OpaqueRange>& kept, const OpaqueRange& range) {
+  std::vector<OpaqueRange> parts{range};
+  for (const OpaqueRange& k : kept) {
+    if (k.v0 == k.v1) continue;
+    std::vector<OpaqueRange> left;
+    for (const OpaqueRange& p : parts) {
+      if (p.v1 < k.v0 || p.v0 > k.v1) {
+        left.push_back(p);
+        continue;
+      }
+      if (p.v0 < k.v0) left.push_back(part_of(range, p.v0, k.v0));
+      if (p.v1 > k.v1) left.push_back(part_of(range, k.v1, p.v1));
+    }
+    parts = std::move(left);
+  }
+  kept.insert(kept.end(), parts.begin(), parts.end());
+}
+
+// Prediction (Lee and Shin 2013, section 4.2) over the bins of the medium's table, two numbers per bin. Up: the first
+// range that reaches into the bin or lies above it; down: the last one that begins in it or below. One bin of margin
+// covers rounding.
+std::vector<int> prediction_of(const std::vector<OpaqueRange>& ranges, const MediumTableOptions& o) {
+  std::vector<int> next;
+  const int last = static_cast<int>(ranges.size()) - 1;
+  const auto edge = [&](int b) { return o.lo + (o.hi - o.lo) * b / (o.entries - 1); };
+  int up = 0, down = 0;
+  for (int b = 0; b < o.entries && last >= 0; ++b) {  // the coordinate of the last entry is a bin of its own
+    while (b > 0 && up < last && ranges[static_cast<std::size_t>(up)].v1 < edge(b - 1)) ++up;
+    while (down < last && (b + 2 > o.entries || ranges[static_cast<std::size_t>(down) + 1].v0 <= edge(b + 2))) ++down;
+    next.insert(next.end(), {up, down});
+  }
+  return next;
+}
+
+struct FiniteRange : OpaqueRange {
+  bool beyond_low, beyond_high;  // it has no end there
+};
+
+// Beyond the outermost border the columns are constant: a border near by says the same as one at infinity.
+std::vector<FiniteRange> finite(const Medium& medium) {
+  const auto [front, back] = medium.interval.empty()
+                                 ? std::pair{0.0, 1.0}
+                                 : std::pair{medium.interval.front().v0, medium.interval.back().v1};
+  std::vector<FiniteRange> ranges;
+  for (const OpaqueRange& o : disjoint(medium.opaque)) {
+    FiniteRange r{o, o.v0 < -1e30, o.v1 > 1e30};
+    if (r.beyond_low) r.v0 = std::min(front, o.v1) - 1;
+    if (r.beyond_high) r.v1 = std::max(back, o.v0) + 1;
+    ranges.push_back(r);
+  }
+  return ranges;
+}
+
 }  // namespace
 
-void add_discrete_surfaces(const Medium& medium, bool fold_shaded, KernelUnit& unit) {
+std::vector<OpaqueRange> disjoint(const std::vector<OpaqueRange>& ranges) {
+  std::vector<OpaqueRange> kept;
+  for (const OpaqueRange& r : ranges)
+    if (r.v0 < r.v1) add_outside(kept, r);
+  for (const OpaqueRange& r : ranges) {
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const OpaqueRange& k) { return r.v0 >= k.v0 && r.v0 <= k.v1; });
+    if (r.v0 == r.v1 && !known) kept.push_back(r);
+  }
+  std::sort(kept.begin(), kept.end(), [](const OpaqueRange& a, const OpaqueRange& b) { return a.v0 < b.v0; });
+  return kept;
+}
+
+void add_discrete_surfaces(const Medium& medium, const MediumTableOptions& options, OpaquePrediction prediction,
+                           KernelUnit& unit) {
+  const std::vector<OpaqueRange> opaque = disjoint(medium.opaque);
   unit.uniforms.push_back(Uniform::constant_integer("medium_diracs", static_cast<int>(medium.dirac.size())));
-  unit.uniforms.push_back(Uniform::constant_integer("medium_opaques", static_cast<int>(medium.opaque.size())));
+  unit.uniforms.push_back(Uniform::constant_integer("medium_opaques", static_cast<int>(opaque.size())));
+  unit.uniforms.push_back(
+      Uniform::constant_integer("medium_prediction", prediction == OpaquePrediction::published ? 1 : 0));
   std::vector<double> rows = dirac_rows(medium.dirac);
-  const std::vector<double> ranges = opaque_rows(medium.opaque, fold_shaded);
+  const std::vector<double> ranges = opaque_rows(opaque, options.fold_shaded);
   rows.insert(rows.end(), ranges.begin(), ranges.end());
   unit.buffers.push_back(vec4_buffer("medium_discrete", std::move(rows)));
+  std::vector<int> next = prediction_of(opaque, options);
+  const std::uint64_t count = next.size();
+  next.resize(std::max<std::size_t>(next.size(), 1));
+  unit.buffers.push_back(make_buffer("medium_opaque_next", Element::i32, std::move(next), count));
+}
+
+Medium continued_into_opaque(const Medium& medium) {
+  if (medium.opaque.empty() || medium.interval.empty()) return medium;
+  const std::vector<FiniteRange> opaque = finite(medium);
+  std::vector<double> borders;
+  for (const FiniteRange& o : opaque) borders.insert(borders.end(), {o.v0, 0.5 * (o.v0 + o.v1), o.v1});
+  Medium r = medium.split_at(borders);
+  for (const FiniteRange& o : opaque) {
+    if (o.v0 == o.v1) continue;
+    const double middle = 0.5 * (o.v0 + o.v1);
+    const auto below = medium.at(o.v0, true), above = medium.at(o.v1);
+    for (MediumInterval& i : r.interval) {
+      if (i.v0 < o.v0 || i.v1 > o.v1) continue;
+      // Nothing lies in front of a range that has no end there.
+      const bool low = o.beyond_high || (!o.beyond_low && i.v1 <= middle);
+      for (std::size_t c = 0; c < medium_columns; ++c) i.c[c] = {low ? below[c] : above[c], 0, 0};
+    }
+  }
+  return r;
+}
+
+Medium without_opaque_values(const Medium& medium, double extinction) {
+  constexpr double surface_depth = 16.6;  // docs/math, section 0
+  if (medium.opaque.empty()) return medium;
+  const std::vector<FiniteRange> opaque = finite(medium);
+  std::vector<double> borders;
+  for (const FiniteRange& o : opaque) borders.insert(borders.end(), {o.v0, o.v1});
+  Medium r = medium;
+  if (r.interval.empty()) r.interval.push_back({borders.front(), borders.back() + 1, {}});
+  r = r.split_at(borders);
+  for (const FiniteRange& o : opaque) {
+    if (o.v0 == o.v1) {
+      const Vector3 depth{surface_depth, surface_depth, surface_depth};
+      Vector3 color;
+      for (std::size_t c = 0; c < 3; ++c) color[c] = o.P[0][c] + o.S[0][c];
+      r.dirac.push_back({o.v0, depth, color});
+      continue;
+    }
+    for (MediumInterval& i : r.interval) {
+      if (i.v0 < o.v0 || i.v1 > o.v1) continue;
+      i.c = {};
+      for (int c = 0; c < 3; ++c) {
+        const auto ch = static_cast<std::size_t>(c);
+        i.c[static_cast<std::size_t>(column(Term::tau_l, c))] = {extinction, 0, 0};
+        for (const auto& [term, ends] : {std::pair{Term::P, &o.P}, {Term::S_l, &o.S}, {Term::W_l, &o.W}}) {
+          const double at0 = extinction * color_at(o, *ends, i.v0)[ch], at1 = extinction * color_at(o, *ends, i.v1)[ch];
+          i.c[static_cast<std::size_t>(column(term, c))] = {at0, at1 - at0, 0};
+        }
+      }
+    }
+  }
+  std::sort(r.dirac.begin(), r.dirac.end(), [](const Dirac& a, const Dirac& b) { return a.v < b.v; });
+  r.opaque.clear();
+  return r;
 }
 
 Medium with_pulses(const Medium& medium, double width) {

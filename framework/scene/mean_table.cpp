@@ -1,59 +1,58 @@
 #include "framework/scene/mean_table.h"
 
 #include "framework/scene/buffers.h"
-#include "framework/scene/medium_bins.h"
 
 namespace dvrlab {
 namespace {
 
-/// The groups of every bin, those outside the range included, with the surfaces' moment where it is asked for.
-std::vector<std::vector<MediumGroup>> bin_groups(const Medium& medium, const MediumTableOptions& o, int bins,
-                                                 bool barycentre) {
-  const MediumLayout layout(medium, o);
-  std::vector<MediumColumns> mean = bin_means(medium, o.lo, o.hi, bins);
-  mean.insert(mean.begin(), medium.at(o.lo, true));
-  mean.push_back(medium.at(o.hi));
-  std::vector<double> offset = bin_surface_offsets(medium, o.lo, o.hi, bins);
-  offset.insert(offset.begin(), 0.0);
-  offset.push_back(0.0);
-  std::vector<std::vector<MediumGroup>> groups;
-  for (std::size_t j = 0; j < mean.size(); ++j) {
-    groups.push_back(layout.groups(mean[j]));
-    if (!barycentre) continue;
-    double tau = 0;
-    for (int c = 0; c < 3; ++c) tau += mean[j][static_cast<std::size_t>(column(Term::tau_s, c))] / 3;
-    groups.back().push_back({tau * (static_cast<double>(j) - 0.5) + offset[j], tau, 0, 0});
+/// Per bin and group: the sum of all bins before it, what rounding took of that, the mean in it.
+template <class T>
+std::shared_ptr<T[]> sums_of(const BinMedium& bins) {
+  const std::size_t numbers = 4 * static_cast<std::size_t>(bins.groups);
+  auto table = std::make_shared_for_overwrite<T[]>(3 * numbers * static_cast<std::size_t>(bins.count));
+  T* to = table.get();
+  std::array<double, 4 * 8> sum{};
+  for (int j = 0; j < bins.count; ++j) {
+    const double* mean = bins.bin(j);
+    for (std::size_t g = 0; g < numbers; g += 4, to += 12) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const T rounded = static_cast<T>(sum[g + k]);
+        to[k] = rounded;
+        to[4 + k] = static_cast<T>(sum[g + k] - static_cast<double>(rounded));
+        to[8 + k] = static_cast<T>(mean[g + k]);
+      }
+      // What lies below the range is never summed up: sums begin at its end.
+      if (j > 0)
+        for (std::size_t k = 0; k < 4; ++k) sum[g + k] += mean[g + k];
+    }
   }
-  return groups;
+  return table;
 }
 
 }  // namespace
 
-void add_means(const Medium& medium, const MediumTableOptions& o, int bins, bool barycentre, KernelUnit& unit) {
-  std::vector<float> table;
-  std::vector<double> table64;
-  if (bins > 0) {
-    const auto groups = bin_groups(medium, o, bins, barycentre);
-    std::vector<MediumGroup> sum(groups.front().size());
-    for (std::size_t j = 0; j < groups.size(); ++j) {
-      for (std::size_t g = 0; g < sum.size(); ++g) {
-        for (double x : sum[g]) table.push_back(static_cast<float>(x));
-        for (double x : sum[g]) table.push_back(static_cast<float>(x - static_cast<double>(static_cast<float>(x))));
-        for (double x : groups[j][g]) table.push_back(static_cast<float>(x));
-        // In double a sum is one number; what rounding took is nothing.
-        table64.insert(table64.end(), sum[g].begin(), sum[g].end());
-        table64.insert(table64.end(), {0, 0, 0, 0});
-        table64.insert(table64.end(), groups[j][g].begin(), groups[j][g].end());
-        // What lies below the range is never summed up: sums begin at its end.
-        for (std::size_t k = 0; k < 4 && j > 0; ++k) sum[g][k] += groups[j][g][k];
-      }
-    }
-  }
+std::uint64_t mean_table_bytes(int bins, int groups, bool fp64) {
+  const auto numbers = 4 * static_cast<std::uint64_t>(groups) * (static_cast<std::uint64_t>(bins) + 2);
+  return numbers * (sizeof(double) + 3 * (fp64 ? sizeof(double) : sizeof(float)));
+}
+
+void add_means(const BinMedium& bins, bool barycentre, bool fp64, KernelUnit& unit) {
   unit.uniforms.insert(unit.uniforms.end(),
-                       {Uniform::real("mean_lo", o.lo), Uniform::real("mean_scale", bins / (o.hi - o.lo)),
-                        Uniform::real("mean_last", bins + 1),
-                        Uniform::constant_integer("mean_barycentre", barycentre && bins > 0 ? 1 : 0)});
-  unit.buffers.push_back(vec4_buffer("mean_table", std::move(table), std::move(table64)));
+                       {Uniform::real("mean_lo", bins.lo),
+                        Uniform::real("mean_scale", bins.count > 0 ? (bins.count - 2) / (bins.hi - bins.lo) : 0),
+                        Uniform::real("mean_last", bins.count - 1),
+                        Uniform::constant_integer("mean_barycentre", barycentre && bins.count > 0 ? 1 : 0)});
+  if (bins.count == 0) {
+    unit.buffers.push_back(vec4_buffer("mean_table", {}));
+    return;
+  }
+  const std::uint64_t count = 3 * static_cast<std::uint64_t>(bins.groups) * static_cast<std::uint64_t>(bins.count);
+  Buffer buffer{"mean_table", Element::vec4, nullptr, count, nullptr};
+  if (fp64)
+    buffer.data64 = sums_of<double>(bins);
+  else
+    buffer.data = sums_of<float>(bins);
+  unit.buffers.push_back(std::move(buffer));
 }
 
 }  // namespace dvrlab

@@ -100,30 +100,61 @@ MediumLayout::MediumLayout(const Medium& medium, const MediumTableOptions& optio
   const Terms terms = medium.terms();
   emits_ = options.full && (terms.has(Term::E) || terms.has(Term::P));
   surfaces_ = options.full && terms.surfaces();
+  if (form_ != Form::general)
+    count_ = surfaces_ ? 2 : 1;
+  else if (options.full)
+    count_ = 3 + (emits_ ? 2 : 0) + (surfaces_ ? 2 : 0);
+  else
+    count_ = options.rgb ? 2 : 1;
 }
 
 std::vector<MediumGroup> MediumLayout::groups(const Columns& x) const {
-  const auto rgb = [&](Term t, double w) { return MediumGroup{col(x, t, 0), col(x, t, 1), col(x, t, 2), w}; };
+  std::vector<MediumGroup> g(static_cast<std::size_t>(count_));
+  write(x, g.front().data());
+  return g;
+}
+
+int MediumLayout::extinction_at(int channel) const {
+  if (form_ != Form::general) return 3;
+  return options_.full || options_.rgb ? channel : 0;
+}
+
+void MediumLayout::write(const Columns& x, double* to) const {
+  const auto rgb = [&](Term t, double w) {
+    for (int c = 0; c < 3; ++c) *to++ = col(x, t, c);
+    *to++ = w;
+  };
   if (form_ != Form::general) {
-    MediumGroup first = rgb(Term::S_l, col(x, Term::tau_l, 0));
-    if (form_ == Form::compact_unlit)
-      for (int c = 0; c < 3; ++c) first[std::size_t(c)] = col(x, Term::E, c) + col(x, Term::P, c);
-    if (!surfaces_) return {first};
-    return {first, rgb(Term::S_s, col(x, Term::tau_s, 0))};
+    if (form_ == Form::compact_unlit) {
+      for (int c = 0; c < 3; ++c) *to++ = col(x, Term::E, c) + col(x, Term::P, c);
+      *to++ = col(x, Term::tau_l, 0);
+    } else {
+      rgb(Term::S_l, col(x, Term::tau_l, 0));
+    }
+    if (surfaces_) rgb(Term::S_s, col(x, Term::tau_s, 0));
+    return;
   }
   if (options_.full) {
-    std::vector<MediumGroup> g = {rgb(Term::tau_l, col(x, Term::tau_s, 0)), rgb(Term::S_l, col(x, Term::tau_s, 1)),
-                                  rgb(Term::W_l, col(x, Term::tau_s, 2))};
-    if (emits_) g.insert(g.end(), {rgb(Term::E, 0), rgb(Term::P, 0)});
-    if (surfaces_) g.insert(g.end(), {rgb(Term::S_s, 0), rgb(Term::W_s, 0)});
-    return g;
+    rgb(Term::tau_l, col(x, Term::tau_s, 0));
+    rgb(Term::S_l, col(x, Term::tau_s, 1));
+    rgb(Term::W_l, col(x, Term::tau_s, 2));
+    if (emits_) {
+      rgb(Term::E, 0);
+      rgb(Term::P, 0);
+    }
+    if (surfaces_) {
+      rgb(Term::S_s, 0);
+      rgb(Term::W_s, 0);
+    }
+    return;
   }
-  Vector3 source;
+  if (options_.rgb)
+    rgb(Term::tau_l, 0);
+  else
+    *to++ = col(x, Term::tau_l, 0);
   for (int c = 0; c < 3; ++c)
-    source[std::size_t(c)] =
-        col(x, Term::E, c) + col(x, Term::P, c) + (options_.fold_shaded ? col(x, Term::S_l, c) : 0.0);
-  if (options_.rgb) return {rgb(Term::tau_l, 0), MediumGroup{source[0], source[1], source[2], 0}};
-  return {MediumGroup{col(x, Term::tau_l, 0), source[0], source[1], source[2]}};
+    *to++ = col(x, Term::E, c) + col(x, Term::P, c) + (options_.fold_shaded ? col(x, Term::S_l, c) : 0.0);
+  if (options_.rgb) *to++ = 0;
 }
 
 void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& unit) {
@@ -151,10 +182,12 @@ void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& u
   unit.buffers.push_back(make_buffer("medium_shaded_sum", Element::i32, std::move(sum), count));
 }
 
-OccupiedBins::OccupiedBins(const Medium& medium, const MediumTableOptions& o)
-    : lo_(o.lo),
-      scale_((o.entries - 1) / (o.hi - o.lo)),
-      sum_(prefix_sums(o, [&](double a, double b) { return !medium.empty(a, b); })) {}
+OccupiedBins::OccupiedBins(const Medium& medium, MediumTableOptions o, int cells) {
+  if (cells > 0) o.entries = std::min(o.entries, cells + 1);
+  lo_ = o.lo;
+  scale_ = (o.entries - 1) / (o.hi - o.lo);
+  sum_ = prefix_sums(o, [&](double a, double b) { return !medium.empty(a, b); });
+}
 
 bool OccupiedBins::empty(double a, double b) const {
   const double bins = double(sum_.size()) - 3.0;

@@ -29,15 +29,20 @@ class MediumLayout {
 
   MediumLayout(const Medium& medium, const MediumTableOptions& options);
   std::vector<MediumGroup> groups(const std::array<double, medium_columns>& columns) const;
+  /// The same into count() times four numbers.
+  void write(const std::array<double, medium_columns>& columns, double* to) const;
+  /// Where tau_l of a channel stands among them.
+  int extinction_at(int channel) const;
   Form form() const { return form_; }
   bool emits() const { return emits_; }
   bool surfaces() const { return surfaces_; }
-  int count() const { return static_cast<int>(groups({}).size()); }
+  int count() const { return count_; }
 
  private:
   MediumTableOptions options_;
   Form form_ = Form::general;
   bool emits_, surfaces_;
+  int count_ = 0;
 };
 
 /// Adds the uniforms medium_* and the buffers medium_table, medium_node, medium_node_poly, medium_shaded_sum.
@@ -47,7 +52,8 @@ void add_medium(const Medium& medium, const MediumTableOptions& options, KernelU
 /// first and last bin include everything outside.
 class OccupiedBins {
  public:
-  OccupiedBins(const Medium& medium, const MediumTableOptions& options);
+  /// `cells`: of the coarsest table that the medium is seen through, if that is coarser than the medium's own; 0: none.
+  OccupiedBins(const Medium& medium, MediumTableOptions options, int cells);
   /// True if no value of the closed interval [a, b] contributes, with one bin of margin.
   bool empty(double a, double b) const;
   /// How many bins before bin b contribute, and two more entries, as medium_shaded_sum has them.

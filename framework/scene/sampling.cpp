@@ -67,8 +67,7 @@ void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame) 
 }
 
 // Skipping only concerns grids; without it the kernel's binding holds one macrocell that is never empty.
-void add_skipping(bool wanted, const Field& field, const Medium& medium, const MediumTableOptions& options,
-                  KernelUnit& unit) {
+void add_skipping(bool wanted, const Field& field, const OccupiedBins& occupied, KernelUnit& unit) {
   const auto* grid = dynamic_cast<const GridField*>(&field);
   std::vector<std::uint8_t> distance(4, 0);
   std::array<int, 3> dims{1, 1, 1};
@@ -76,7 +75,7 @@ void add_skipping(bool wanted, const Field& field, const Medium& medium, const M
   if (skip) {
     const auto cells = macrocells_of(*grid);
     dims = cells->dims;
-    distance = empty_distance(*cells, OccupiedBins(medium, options));
+    distance = empty_distance(*cells, occupied);
   }
   unit.uniforms.insert(
       unit.uniforms.end(),

@@ -7,7 +7,6 @@
 #include "framework/config/resolved_case.h"
 #include "framework/interfaces/field.h"
 #include "framework/interfaces/kernel_unit.h"
-#include "framework/interfaces/medium.h"
 #include "framework/scene/medium_table.h"
 
 namespace dvrlab {
@@ -26,7 +25,6 @@ void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit);
 void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame);
 
 /// Adds frame_skip ... frame_skip_distance.
-void add_skipping(bool wanted, const Field& field, const Medium& medium, const MediumTableOptions& options,
-                  KernelUnit& unit);
+void add_skipping(bool wanted, const Field& field, const OccupiedBins& occupied, KernelUnit& unit);
 
 }  // namespace dvrlab

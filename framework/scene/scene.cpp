@@ -5,6 +5,7 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
+#include "framework/scene/bin_groups.h"
 #include "framework/scene/camera.h"
 #include "framework/scene/case_medium.h"
 #include "framework/scene/cells.h"
@@ -63,10 +64,12 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
                static_cast<double>(
                    registry.get<EstimatorPlugin>("estimator", c.estimator.type)
                        .bytes_needed(c.estimator.parameters, model_medium(c, registry, 1, 0, 1, notes).terms())));
-  // Sums in fp32 with what rounding took, rates, and the sums in fp64: of at most eight groups of four.
   const auto bins =
       registry.get<EstimatorPlugin>("estimator", c.estimator.type).declaration(c.estimator.parameters).mean_bins;
-  if (bins > 0) memory.state("mean tables", 8.0 * 12.0 * (bins + 2.0) * (sizeof(float) + sizeof(double)));
+  constexpr int most_groups = 8;
+  if (bins > 0)
+    memory.state("mean tables",
+                 static_cast<double>(mean_table_bytes(bins, most_groups, precision_of(c) == Precision::fp64)));
   for (const Section& s : c.illumination)
     memory.state(
         "illumination '" + s.type + "'",
@@ -119,10 +122,14 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   if (!samples_cells(c)) refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, scene.step, job.frame);
-  add_skipping(skips(c), *field, scene.medium, options, job.frame);
-  add_medium(scene.medium, options, job.frame);
-  add_discrete_surfaces(scene.medium, options.fold_shaded, job.frame);
-  add_means(scene.medium, options, declared.mean_bins, declared.barycentre && job.full, job.frame);
+  const OccupiedBins occupied(scene.medium, options, declared.cells);
+  add_skipping(skips(c), *field, occupied, job.frame);
+  // What tables hold: of opaque values only what lies before them.
+  const Medium before_opaque = continued_into_opaque(scene.medium);
+  add_medium(before_opaque, options, job.frame);
+  add_discrete_surfaces(scene.medium, options, declared.prediction, job.frame);
+  const MediumLayout layout(before_opaque, options);
+  const bool barycentre = declared.barycentre && job.full;
   add_shading(shading, std::abs(field->slope), job.frame);
   const bool gradient = job.full && shaded && shading.mode == LocalShading::Mode::blinn_phong;
   job.frame.uniforms.insert(
@@ -139,7 +146,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.sampler.folder = registry.find("sampler", sampler).folder;
   if (samples_cells(c))
     add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
-              OccupiedBins(scene.medium, options), job.frame);
+              OccupiedBins(scene.medium, options, 0), job.frame);
   if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
     throw InputError("estimator.type: estimator \"" + c.estimator.type +
                      "\" needs equally spaced samples, but sampler \"" + sampler +
@@ -147,13 +154,21 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.estimator.plugin = c.estimator.type;
   job.estimator.folder = c.estimator.folder;
   job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);
-  Medium seen = scene.medium;
+  Medium seen = before_opaque;
   if (declared.cuts_diracs) seen.dirac.clear();
   end_phase("frame tables");
+  BinMedium bins;
+  if (declared.mean_bins > 0)
+    bins = bin_groups(before_opaque, layout, options.lo, options.hi, declared.mean_bins, barycentre);
+  estimator.shape_bins(c.estimator.parameters, scene.step, bins);
+  add_means(bins, barycentre, job.precision == Precision::fp64, job.frame);
   estimator.prepare(c.estimator.parameters,
                     {&seen, options.lo, options.hi, scene.step, job.full,
-                     shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder},
+                     shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder, &bins},
                     job.estimator);
+  // A value of the medium's table is two fetches per group; a mean six.
+  job.table_fetches = declared.points * (options.nodes ? 0 : 2 * layout.count()) +
+                      declared.means * 6 * layout.count() + job.estimator.fetches;
   end_phase("estimator tables");
   return scene;
 }

@@ -30,6 +30,8 @@ std::vector<std::vector<double>> defined_outputs(const Cells& cells, const Table
         if (r.outputs[o].index != c) continue;
         if (r.outputs[o].kind == Kind::total) all[o][at] = entry.C;
         if (r.outputs[o].kind == Kind::back) all[o][at] = entry.B;
+        if (r.outputs[o].kind == Kind::second) all[o][at] = entry.second;
+        if (r.outputs[o].kind == Kind::third) all[o][at] = entry.third;
       }
     });
   for (std::size_t o = 0; o < all.size(); ++o)
@@ -113,7 +115,7 @@ TableRequest full_request(bool rgb, bool ratio) {
   else
     add(Kind::transmittance, 0, r.extinctions());
   add(Kind::total, 3, 3 + r.extinctions());
-  add(Kind::back, 3, 3 + r.extinctions());
+  for (Kind kind : {Kind::back, Kind::second, Kind::third}) add(kind, 3, 3 + r.extinctions());
   while (r.outputs.size() % 4 != 0) r.outputs.push_back({});
   return r;
 }

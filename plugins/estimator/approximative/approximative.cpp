@@ -12,15 +12,19 @@ constexpr Parameter parameters[] = {
      "Self-attenuation of the segment's mean source by (1 - exp(-M)) / M, M its depth; false: none, as Engel et al. "
      "2001, which oversaturates.",
      Affects::pixels, "", "false"},
-    shading_with_barycentre_key};
+    shading_with_barycentre_key,
+    opaque_prediction_key,
+    max_extinction_key};
 
 class Approximative : public EstimatorPlugin {
  public:
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
-    d.shading = p.choice_index("shading");
-    d.mean_bins = static_cast<int>(p.integer("table_size"));
+    d.shading = segment_shading(p);
+    d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
+    d.means = 1;
+    declare_prediction(p, d);
     d.barycentre = p.text("shading") == "barycentre";
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;

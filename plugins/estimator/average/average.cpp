@@ -12,8 +12,8 @@ constexpr Parameter parameters[] = {
      "Max, equation 5), the mean density (equation 6), or the depth itself as the opacity (equation 8).",
      Affects::pixels, "", "\"mean_density\""},
     {"table_size", ParameterType::integer, "", "4096", "[2,65536]",
-     "Bins of the cumulative tables: of the exact depth, and of the barycentre.", Affects::pixels,
-     R"({"estimator":{"rule":"exact_depth"}})", "16"},
+     "Bins of the cumulative tables: of the exact depth (rule exact_depth), and of the barycentre (shading barycentre).",
+     Affects::pixels, R"({"estimator":{"rule":"exact_depth"}})", "16"},
     shading_with_barycentre_key,
     approximate_dirac_key};
 
@@ -22,9 +22,11 @@ class Average : public EstimatorPlugin {
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
-    d.shading = p.choice_index("shading");
+    d.shading = segment_shading(p);
     d.barycentre = p.text("shading") == "barycentre";
-    if (p.text("rule") == "exact_depth" || d.barycentre) d.mean_bins = static_cast<int>(p.integer("table_size"));
+    if (p.text("rule") == "exact_depth" || d.barycentre) d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
+    d.points = 2;
+    d.means = p.text("rule") == "exact_depth" ? 1 : 0;
     d.handles = Terms::every_column | Terms::rgb_bit;
     // A chromaticity is a source per extinction: what glows without extinction has none.
     if (p.text("rule") != "trapezoid") d.handles &= ~Terms::bit(Term::E);

@@ -11,14 +11,20 @@ const Parameter parameters[] = {
      "so that no surface is lost at an extremum.",
      Affects::pixels, R"({"optical_model":{"type":"hybrid","opacity":null,"surface":{"opacity":[[0.3,0],[0.8,0.6]]}}})",
      "true"},
+    {"variant", ParameterType::choice, "", "\"corrected\"", "corrected|published",
+     "published: the Riemann sum of Lee and Shin 2013, equations 2 to 4: the sample at the front of each segment, "
+     "emission without self-attenuation.",
+     Affects::pixels, "", "\"published\""},
     approximate_dirac_key};
 
 class Direct : public EstimatorPlugin {
  public:
-  EstimatorDeclaration declaration(const ParameterSet&) const override {
+  EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
-    d.samples = EstimatorDeclaration::Samples::centre;
-    d.neighbours = true;
+    const bool published = p.text("variant") == "published";
+    d.samples = published ? EstimatorDeclaration::Samples::ends : EstimatorDeclaration::Samples::centre;
+    d.neighbours = !published;
+    d.points = 1;
     d.handles = Terms::every_column | Terms::rgb_bit;
     return d;
   }

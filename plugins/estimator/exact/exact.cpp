@@ -1,16 +1,14 @@
 // The exact integral of the canonical piecewise linear medium: the quadrature of its kernel.
-#include <cmath>
-#include <numbers>
-
 #include "framework/interfaces/estimator.h"
 #include "framework/interfaces/segment_keys.h"
 #include "framework/scene/buffers.h"
+#include "framework/scene/gauss.h"
 
 namespace dvrlab::exact {
 namespace {
 
 constexpr Parameter parameters[] = {
-    shading_key,
+    shading_with_cubic_key,
     {"dirac_shading", ParameterType::choice, "", "\"interpolated\"", "interpolated|inside",
      "Light factors of a Dirac term inside a segment: between those of the ends, or those of its own place with the "
      "interpolated gradient.",
@@ -18,33 +16,12 @@ constexpr Parameter parameters[] = {
      R"({"optical_model":{"type":"hybrid","opacity":null,"surface":{"delta":[{"value":0.5,"opacity":0.6}]}},"sampling":{"step":2}})",
      "\"inside\""}};
 
-/// Gauss-Legendre points on [0, 1] as (x, weight, 0, 0).
-std::vector<double> gauss_rows(int points) {
-  std::vector<double> rows;
-  for (int k = 1; k <= points; ++k) {
-    double x = std::cos(std::numbers::pi * (k - 0.25) / (points + 0.5)), slope = 1;
-    for (int newton = 0; newton < 50; ++newton) {
-      double p0 = 1, p1 = x;
-      for (int n = 2; n <= points; ++n) {
-        const double p2 = ((2 * n - 1) * x * p1 - (n - 1) * p0) / n;
-        p0 = p1;
-        p1 = p2;
-      }
-      slope = points * (x * p1 - p0) / (x * x - 1);
-      x -= p1 / slope;
-    }
-    const double weight = 1.0 / ((1 - x * x) * slope * slope);
-    rows.insert(rows.end(), {(1 + x) / 2, weight, 0.0, 0.0});
-  }
-  return rows;
-}
-
 class Exact : public EstimatorPlugin {
  public:
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
-    d.shading = p.choice_index("shading");
+    d.shading = segment_shading(p);
     d.needs_nodes = true;
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;

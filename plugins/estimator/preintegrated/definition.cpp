@@ -8,22 +8,33 @@ namespace dvrlab::preintegrated {
 namespace {
 double phi1(double q) { return q == 0 ? 1 : -std::expm1(-q) / q; }
 
-double psi(double q) {
-  if (std::abs(q) > 0.5) return (phi1(q) - std::exp(-q)) / q;
+// int_0^1 u^n e^-qu du
+double psi(double q, int n) {
+  if (std::abs(q) > 0.5) {
+    double value = phi1(q);
+    for (int k = 1; k <= n; ++k) value = (k * value - std::exp(-q)) / q;
+    return value;
+  }
   double sum = 0, term = 1;
   for (int k = 0; k < 24; ++k) {
-    sum += term / (k + 2);
+    sum += term / (k + n + 1);
     term *= -q / (k + 1);
   }
   return sum;
 }
 
-// A triple of the monoid (B4); D is weighted with the position in cells from the front.
+// A part of a segment in the monoid (B4); D, D2, D3 are weighted with the position in cells from the front and its powers.
 struct Triple {
-  double T = 1, C = 0, D = 0, length = 0;
+  double T = 1, C = 0, D = 0, length = 0, D2 = 0, D3 = 0;
 };
 Triple then(const Triple& a, const Triple& b) {
-  return {a.T * b.T, a.C + a.T * b.C, a.D + a.T * (b.D + a.length * b.C), a.length + b.length};
+  const double n = a.length;
+  return {a.T * b.T,
+          a.C + a.T * b.C,
+          a.D + a.T * (b.D + n * b.C),
+          n + b.length,
+          a.D2 + a.T * (b.D2 + n * (2 * b.D + n * b.C)),
+          a.D3 + a.T * (b.D3 + n * (3 * b.D2 + n * (3 * b.D + n * b.C)))};
 }
 
 struct Source {
@@ -43,7 +54,8 @@ double dirac_source(const SourceColumn& s, const CellDirac& d) {
 Triple homogeneous(double length, double q, double G) {
   q *= length;
   G *= length;
-  return {std::exp(-q), G * phi1(q), length * G * psi(q), length};
+  return {std::exp(-q),          G * phi1(q),          length * G * psi(q, 1), length, length * length * G * psi(q, 2),
+          length * length * length * G * psi(q, 3)};
 }
 
 Triple cell(const Cells& cells, const SourceColumn& s, int e, std::size_t k, double h_m, bool reversed, double sign) {
@@ -73,7 +85,7 @@ Entry diagonal(const Cells& cells, const SourceColumn& s, int e, double h, std::
   };
   const double q = h * cells.at_value[std::size_t(column(Term::tau_l, e))][i];
   const double G = h * (get(s.E, Term::E) + get(s.P, Term::P) + get(s.S, Term::S_l) + get(s.W, Term::W_l));
-  return {std::exp(-q), G * phi1(q), G * psi(q)};
+  return {std::exp(-q), G * phi1(q), G * psi(q, 1), G * psi(q, 2), G * psi(q, 3)};
 }
 }  // namespace
 
@@ -83,7 +95,8 @@ Entry defined_entry(const Cells& cells, const SourceColumn& s, int e, double h, 
   Triple r;
   for (int k = 0; k < m; ++k)
     r = then(r, cell(cells, s, e, std::size_t(j > i ? i + k : i - 1 - k), h / m, j < i, surface_sign));
-  return {r.T, r.C, r.D / m};
+  const double n = m;
+  return {r.T, r.C, r.D / n, r.D2 / (n * n), r.D3 / (n * n * n)};
 }
 
 std::vector<Entry> published_slide(const Cells& cells, const SourceColumn& s, int e, double h, int m, bool descending) {

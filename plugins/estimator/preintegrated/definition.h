@@ -7,9 +7,10 @@
 
 namespace dvrlab::preintegrated {
 
-/// Transmittance, radiance and the radiance's part weighted with the position in the segment, without dimension.
+/// Transmittance, radiance and the radiance's parts weighted with the position in the segment, its square and its cube
+/// (C_1 to C_3; the published slide has only the first), without dimension.
 struct Entry {
-  double T = 1, C = 0, B = 0;
+  double T = 1, C = 0, B = 0, second = 0, third = 0;
 };
 
 /// The entry of one source column, seen through the extinction of `extinction_channel`, from grid value i to j, for

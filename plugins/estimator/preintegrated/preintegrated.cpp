@@ -1,4 +1,5 @@
 // Full pre-integration: two-dimensional tables of all segments of the nominal length, and how they are looked up.
+#include <algorithm>
 #include <string>
 
 #include "framework/interfaces/error.h"
@@ -25,7 +26,9 @@ constexpr Parameter parameters[] = {
      "published: the entries of equation 22 of Yang et al. 2012 as printed; published_slide: those of the window slide "
      "of Lum et al. 2004. Both only show what the corrections are for, with the plain look-up.",
      Affects::pixels, R"({"estimator":{"lookup":"plain","table_size":64}})", "\"published\""},
-    shading_with_barycentre_key,
+    shading_of_every_kind_key,
+    opaque_prediction_key,
+    max_extinction_key,
     {"update", ParameterType::choice, "", "\"full\"", "full|partial",
      "Whether a table that differs from an earlier one of the same run in some of its "
      "values is built again as a whole; "
@@ -41,6 +44,9 @@ class Preintegrated : public EstimatorPlugin {
     if (p.text("lookup") != "plain")
       throw InputError(p.path_of("variant") + ": \"" + p.text("variant") +
                        "\" fills a table of radiance and transmittance; set lookup to \"plain\"");
+    if (p.text("shading") == "nonlinear")
+      throw InputError(p.path_of("variant") + ": \"" + p.text("variant") +
+                       "\" is of tables without the moments that shading \"nonlinear\" needs; choose another shading");
     if (p.integer("table_size") > most_published_values)
       throw InputError(p.path_of("table_size") + ": with variant \"" + p.text("variant") + "\" at most " +
                        std::to_string(most_published_values) + ", for a table is integrated cell by cell");
@@ -49,11 +55,14 @@ class Preintegrated : public EstimatorPlugin {
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     d.samples = EstimatorDeclaration::Samples::ends;
-    d.shading = p.choice_index("shading");
+    d.shading = segment_shading(p);
     d.fp64 = false;  // its table holds floats
     // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
     d.cuts_diracs = p.text("lookup") == "corrected";
     d.mean_bins = static_cast<int>(p.integer("depth_table_size"));
+    d.cells = std::min(d.mean_bins, static_cast<int>(p.integer("table_size")) - 1);
+    d.means = 1;
+    declare_prediction(p, d);
     d.barycentre = p.text("shading") == "barycentre";
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;
@@ -62,7 +71,8 @@ class Preintegrated : public EstimatorPlugin {
   std::uint64_t bytes_needed(const ParameterSet& p, const Terms& terms) const override {
     Groups unused;
     const int n = static_cast<int>(p.integer("table_size"));
-    const TableRequest most = request_of(terms, true, true, p.text("lookup") == "plain", unused);
+    const TableRequest most =
+        request_of(terms, true, true, p.text("lookup") == "plain", p.text("shading") == "nonlinear", unused);
     // Two tables are kept, beside them a published one, and every thread of a build has its own memory.
     return (p.text("variant") == "corrected" ? 2 : 3) * Table::bytes(n, most) + (std::uint64_t{64} << 20);
   }
@@ -72,7 +82,8 @@ class Preintegrated : public EstimatorPlugin {
     const int n = static_cast<int>(p.integer("table_size"));
     Groups groups;
     const TableRequest request =
-        request_of(context.medium->terms(), context.full, context.lit_particles, plain, groups);
+        request_of(context.medium->terms(), context.full, context.lit_particles, plain,
+                   p.text("shading") == "nonlinear", groups);
     auto table = table_of(*context.medium, context.value_min, context.value_max, n, request, context.step,
                           p.text("update") == "partial", {context.folder});
     const auto variant = static_cast<Variant>(p.choice_index("variant"));
@@ -80,6 +91,7 @@ class Preintegrated : public EstimatorPlugin {
     const auto integer = [&](const char* name, int value) {
       unit.uniforms.push_back(Uniform::constant_integer(std::string("preintegrated_") + name, value));
     };
+    unit.fetches = 3 * request.groups();
     integer("values", n);
     integer("block", static_cast<int>(table_entries(n)));
     integer("groups", request.groups());

@@ -34,7 +34,8 @@ struct View {
   }
 };
 
-/// Where the value of a channel stands in the values of a step: 0, C of the columns, D / m of the columns, T.
+/// Where the value of a channel stands in the values of a step: 0, then of the columns C, D / m, D2 / m^2 and D3 / m^3,
+/// then T.
 inline void find_slots(const dvr_table_job& j, int* slot) {
   for (int k = 0; k < 4 * j.groups; ++k) {
     const int index = j.channel_index[k];
@@ -45,8 +46,14 @@ inline void find_slots(const dvr_table_job& j, int* slot) {
       case DVR_TABLE_BACK:
         slot[k] = 1 + j.columns + index;
         break;
-      case DVR_TABLE_TRANSMITTANCE:
+      case DVR_TABLE_SECOND:
         slot[k] = 1 + 2 * j.columns + index;
+        break;
+      case DVR_TABLE_THIRD:
+        slot[k] = 1 + 3 * j.columns + index;
+        break;
+      case DVR_TABLE_TRANSMITTANCE:
+        slot[k] = 1 + 4 * j.columns + index;
         break;
       default:
         slot[k] = 0;
@@ -54,9 +61,12 @@ inline void find_slots(const dvr_table_job& j, int* slot) {
   }
 }
 
-/// The state of a slide: C and D of every column (D in cells from the front).
+/// Room for the values of a step.
+constexpr int most_values = 1 + 4 * most_columns + 3;
+
+/// The state of a slide: C of every column and its moments D, D2, D3 of the position in cells from the front.
 struct State {
-  vd C[most_columns], D[most_columns];
+  vd C[most_columns], D[most_columns], D2[most_columns], D3[most_columns];
 };
 
 /// E = extinction channels, N = columns of a table without weights; 0 = as the job says.
@@ -67,7 +77,8 @@ struct Slide {
   const View& v;
   DVR_INLINE int extinctions() const { return E > 0 ? E : j.extinctions; }
   DVR_INLINE int columns() const { return N > 0 ? N : j.columns; }
-  DVR_INLINE bool weighted(int c) const { return N > 0 ? false : j.weighted[c] != 0; }
+  DVR_INLINE bool weighted(int c) const { return N > 0 ? false : j.moments[c] != 0; }
+  DVR_INLINE bool cubic(int c) const { return N > 0 ? false : j.moments[c] > 1; }
   DVR_INLINE int extinction_of(int c) const { return E == 1 ? 0 : j.extinction_of[c]; }
 
   DVR_INLINE vd source(int c, intptr_t k) const {
@@ -92,7 +103,7 @@ struct Slide {
   /// Windows of the rows below `top`, by inserting their cells from the back to the front (B4).
   void fill(State& s, int top) const {
     const int back = top + d.most < j.n - 2 ? top + d.most : j.n - 2;
-    for (int c = 0; c < columns(); ++c) s.C[c] = s.D[c] = all(0.0);
+    for (int c = 0; c < columns(); ++c) s.C[c] = s.D[c] = s.D2[c] = s.D3[c] = all(0.0);
     for (int k = back; k > top; --k) {
       const vm inside = all(k - top - 0.5) < d.m;
       const int q = v.side.dirac_cell[k];
@@ -101,6 +112,17 @@ struct Slide {
         const vd t = load(v.scratch.t + i), G = source(c, k);
         vd in = G * load(v.scratch.phi + i);
         if (q >= 0) in = in + load(dirac(v.scratch.dirac_total, q, c));
+        if (cubic(c)) {
+          vd second = G * load(v.scratch.psi2 + i), third = G * load(v.scratch.psi3 + i);
+          if (q >= 0) {
+            second = second + load(dirac(v.scratch.dirac_second, q, c));
+            third = third + load(dirac(v.scratch.dirac_third, q, c));
+          }
+          third = third + t * (s.D3[c] + all(3.0) * (s.D2[c] + s.D[c]) + s.C[c]);
+          second = second + t * (s.D2[c] + all(2.0) * s.D[c] + s.C[c]);
+          s.D3[c] = select(inside, third, s.D3[c]);
+          s.D2[c] = select(inside, second, s.D2[c]);
+        }
         if (weighted(c)) {
           vd moment = G * load(v.scratch.psi + i);
           if (q >= 0) moment = moment + load(dirac(v.scratch.dirac_back, q, c));
@@ -130,7 +152,7 @@ struct Slide {
         psi[e] = load(v.scratch.psi + i);
         psi_back[e] = v.diagonal(v.scratch.psi, e, back);
       }
-      value[1 + 2 * columns() + e] = t[e] * R[e];
+      value[1 + 4 * columns() + e] = t[e] * R[e];
     }
     for (int c = 0; c < columns(); ++c) {
       const int e = extinction_of(c);
@@ -147,7 +169,31 @@ struct Slide {
       vd moment = G * psi[e], moment_back = G_back * psi_back[e];
       if (__builtin_expect(q >= 0, 0)) moment = moment + load(dirac(v.scratch.dirac_back, q, c));
       if (__builtin_expect(near, 0)) moment_back = moment_back + dirac_diagonal(v.scratch.dirac_back, c, back);
-      const vd rest_moment = at_least(s.D[c] - R[e] * ((d.m - all(1.0)) * out + moment_back), 0.0);
+      const vd last = d.m - all(1.0);  // the front of the back cell, in cells
+      const vd rest_moment = at_least(s.D[c] - R[e] * (last * out + moment_back), 0.0);
+      if (cubic(c)) {
+        const intptr_t i = v.front(e, row);
+        vd second = G * load(v.scratch.psi2 + i), third = G * load(v.scratch.psi3 + i);
+        vd second_back = G_back * v.diagonal(v.scratch.psi2, e, back);
+        vd third_back = G_back * v.diagonal(v.scratch.psi3, e, back);
+        if (__builtin_expect(q >= 0, 0)) {
+          second = second + load(dirac(v.scratch.dirac_second, q, c));
+          third = third + load(dirac(v.scratch.dirac_third, q, c));
+        }
+        if (__builtin_expect(near, 0)) {
+          second_back = second_back + dirac_diagonal(v.scratch.dirac_second, c, back);
+          third_back = third_back + dirac_diagonal(v.scratch.dirac_third, c, back);
+        }
+        const vd rest_second =
+            at_least(s.D2[c] - R[e] * (last * (last * out + all(2.0) * moment_back) + second_back), 0.0);
+        const vd rest_third = at_least(
+            s.D3[c] - R[e] * (last * (last * (last * out + all(3.0) * moment_back) + all(3.0) * second_back) + third_back),
+            0.0);
+        s.D3[c] = third + t[e] * (rest_third + all(3.0) * (rest_second + rest_moment) + rest);
+        s.D2[c] = second + t[e] * (rest_second + all(2.0) * rest_moment + rest);
+        value[1 + 2 * columns() + c] = s.D2[c] * d.inverse * d.inverse;
+        value[1 + 3 * columns() + c] = s.D3[c] * d.inverse * d.inverse * d.inverse;
+      }
       s.D[c] = moment + t[e] * (rest_moment + rest);
       value[1 + columns() + c] = s.D[c] * d.inverse;
     }
@@ -157,14 +203,20 @@ struct Slide {
   /// C and B over the approximate integral (B2) of the same cells.
   DVR_INLINE void divide(intptr_t row, vd* value) const {
     const intptr_t end = row + d.m0;
-    vd phi[3], middle[3];
+    vd phi[3], middle[3], middle2[3], middle3[3];
     for (int e = 0; e < extinctions(); ++e) {
       const vd Q =
           at_least(d.h_m * sum_to(v.side.length_depth[e], row, end) + sum_to(v.side.surface_depth[e], row, end), 0.0);
       vd t, opacity;
       exp_minus(Q, t, opacity);
       phi[e] = phi1_of(Q, opacity);
-      if (any_weight) middle[e] = psi_of(Q, t, phi[e]) / phi[e];
+      if (!any_weight) continue;
+      const vd psi = psi_of(Q, t, phi[e]);
+      middle[e] = psi / phi[e];
+      if (!any_curve) continue;
+      higher_psi_of(Q, t, psi, middle2[e], middle3[e]);
+      middle2[e] = middle2[e] / phi[e];
+      middle3[e] = middle3[e] / phi[e];
     }
     for (int c = 0; c < columns(); ++c) {
       const int e = extinction_of(c);
@@ -175,17 +227,21 @@ struct Slide {
       const vd scale = all(1.0) / (at_least(G, 0.0) * phi[e] * more + square);
       value[1 + c] = (C * more + square) * scale;
       if (weighted(c)) value[1 + columns() + c] = (value[1 + columns() + c] * more + square * middle[e]) * scale;
+      if (!cubic(c)) continue;
+      value[1 + 2 * columns() + c] = (value[1 + 2 * columns() + c] * more + square * middle2[e]) * scale;
+      value[1 + 3 * columns() + c] = (value[1 + 3 * columns() + c] * more + square * middle3[e]) * scale;
     }
   }
 
   /// The rows top .. bottom, downwards.
   void run(int top, int bottom) {
     any_weight = N == 0 && any_weighted(j);
+    any_curve = N == 0 && any_cubic(j);
     State s;
     fill(s, top);
     int slot[DVR_TABLE_MOST_CHANNELS];
     find_slots(j, slot);
-    vd value[1 + 2 * most_columns + 3];
+    vd value[most_values];
     value[0] = all(0.0);
     const bool stream = j.stream != 0;
     for (int row = top; row >= bottom; --row) {
@@ -206,25 +262,29 @@ struct Slide {
       }
     }
   }
-  bool any_weight = false;
+  bool any_weight = false, any_curve = false;
 };
 
 /// m = 0: a segment of one value, of which only the length terms are left.
 inline void diagonal(const dvr_table_job& j, const dvr_table_side& side) {
   for (int i = 0; i < j.n; i += lanes) {
-    double value[1 + 2 * most_columns + 3][lanes];
+    double value[most_values][lanes];
     store(value[0], all(0.0));
     for (int e = 0; e < j.extinctions; ++e) {
       const vd q = all(j.h) * load(side.at_extinction[e] + i);
       vd t, opacity;
       exp_minus(q, t, opacity);
       const vd phi = phi1_of(q, opacity), psi = psi_of(q, t, phi);
-      store(value[1 + 2 * j.columns + e], t);
+      store(value[1 + 4 * j.columns + e], t);
+      vd second, third;
+      higher_psi_of(q, t, psi, second, third);
       for (int c = 0; c < j.columns; ++c) {
         if (j.extinction_of[c] != e) continue;
         const vd G = all(j.h) * load(side.at_source[c] + i);
         store(value[1 + c], j.ratio ? all(1.0) : G * phi);
         store(value[1 + j.columns + c], j.ratio ? psi / phi : G * psi);
+        store(value[1 + 2 * j.columns + c], j.ratio ? second / phi : G * second);
+        store(value[1 + 3 * j.columns + c], j.ratio ? third / phi : G * third);
       }
     }
     int slot[DVR_TABLE_MOST_CHANNELS];

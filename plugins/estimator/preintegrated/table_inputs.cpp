@@ -150,13 +150,15 @@ TableInputs::TableInputs(const Cells& cells, const TableRequest& request, double
   job_.ratio = request.ratio ? 1 : 0;
   for (int c = 0; c < job_.columns; ++c) {
     job_.extinction_of[c] = request.rgb_extinction ? request.columns[std::size_t(c)].channel : 0;
-    job_.weighted[c] = request.weighted(c) ? 1 : 0;
+    job_.moments[c] = request.moments(c);
   }
   for (std::size_t k = 0; k < request.outputs.size(); ++k) {
     using Kind = OutputChannel::Kind;
     const Kind kind = request.outputs[k].kind;
     job_.channel_kind[k] = kind == Kind::total           ? DVR_TABLE_TOTAL
                            : kind == Kind::back          ? DVR_TABLE_BACK
+                           : kind == Kind::second        ? DVR_TABLE_SECOND
+                           : kind == Kind::third         ? DVR_TABLE_THIRD
                            : kind == Kind::transmittance ? DVR_TABLE_TRANSMITTANCE
                                                          : DVR_TABLE_ZERO;
     job_.channel_index[k] = request.outputs[k].index;

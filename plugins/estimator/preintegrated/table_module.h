@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-#define DVR_TABLE_ABI 1
+#define DVR_TABLE_ABI 2
 #define DVR_TABLE_ENTRY "dvrlab_table_module"
 /* Cell arrays may be read this many elements before their first and behind their last element: zeros there, prefix
  * sums go on with their last value. */
 #define DVR_TABLE_PAD 8
 #define DVR_TABLE_MOST_COLUMNS 16
-#define DVR_TABLE_MOST_CHANNELS 32
+#define DVR_TABLE_MOST_CHANNELS 48
 
 /* A sum that is not rounded to 53 bits: hi + lo. Differences of prefix sums next to an opaque cell need it. Null: all
  * cells are 0. */
@@ -39,13 +39,20 @@ typedef struct dvr_table_side {
   float* out[DVR_TABLE_MOST_CHANNELS / 4];         /* per group of 4 channels, 64-byte aligned */
 } dvr_table_side;
 
-enum { DVR_TABLE_ZERO, DVR_TABLE_TOTAL, DVR_TABLE_BACK, DVR_TABLE_TRANSMITTANCE };
+enum {
+  DVR_TABLE_ZERO,
+  DVR_TABLE_TOTAL,
+  DVR_TABLE_BACK,
+  DVR_TABLE_SECOND,
+  DVR_TABLE_THIRD,
+  DVR_TABLE_TRANSMITTANCE
+};
 
 typedef struct dvr_table_job {
   int32_t n, extinctions, columns, groups;
   double h;                                      /* nominal length of a segment, > 0 */
   int32_t extinction_of[DVR_TABLE_MOST_COLUMNS]; /* the extinction channel that a column is seen through */
-  int32_t weighted[DVR_TABLE_MOST_COLUMNS];      /* 1: its back part is stored */
+  int32_t moments[DVR_TABLE_MOST_COLUMNS];       /* the highest power of the position that is stored: 0, 1 or 3 */
   int32_t channel_kind[DVR_TABLE_MOST_CHANNELS], channel_index[DVR_TABLE_MOST_CHANNELS];
   int32_t ratio;
   int32_t stream;                                             /* 1: write past the caches */

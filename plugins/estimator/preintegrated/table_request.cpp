@@ -12,9 +12,14 @@ using Kind = OutputChannel::Kind;
 [[noreturn]] void refuse(const std::string& why) { throw InputError("pre-integration table: " + why); }
 }  // namespace
 
-bool TableRequest::weighted(int column) const {
-  return std::any_of(outputs.begin(), outputs.end(),
-                     [&](const OutputChannel& o) { return o.kind == Kind::back && o.index == column; });
+int TableRequest::moments(int column) const {
+  int most = 0;
+  for (const OutputChannel& o : outputs) {
+    if (o.index != column) continue;
+    if (o.kind == Kind::back) most = std::max(most, 1);
+    if (o.kind == Kind::second || o.kind == Kind::third) most = 3;
+  }
+  return most;
 }
 
 void check(const TableRequest& r) {

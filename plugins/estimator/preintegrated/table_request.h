@@ -18,7 +18,9 @@ struct OutputChannel {
   enum class Kind {
     zero,          // padding
     total,         // C of the column; as a ratio r = C / C_approx
-    back,          // B, its part weighted with the position, so that the front part is C - B; as a ratio B / C_approx
+    back,          // C_1 = B, its part weighted with the position w, so that the front part is C - B; as a ratio B / C_approx
+    second,        // C_2, weighted with w^2, for light factors that are a cubic of w
+    third,         // C_3, weighted with w^3
     transmittance  // T (not for ratio tables: there it follows from the one-dimensional tables)
   };
   Kind kind = Kind::zero;
@@ -28,7 +30,7 @@ struct OutputChannel {
 
 /// Limits of one build; a caller with more builds a second table.
 inline constexpr int most_columns = 16;
-inline constexpr int most_groups = 8;
+inline constexpr int most_groups = 12;
 
 struct TableRequest {
   bool rgb_extinction = false;  // 3 extinction channels; otherwise the red one serves all
@@ -40,7 +42,8 @@ struct TableRequest {
 
   int extinctions() const { return rgb_extinction ? 3 : 1; }
   int groups() const { return static_cast<int>(outputs.size()) / 4; }
-  bool weighted(int column) const;
+  /// The highest power of the position that weighs one of a column's outputs: 0, 1 or 3.
+  int moments(int column) const;
   bool operator==(const TableRequest&) const = default;
 };
 

@@ -32,6 +32,14 @@ class RequestWriter {
   }
   static OutputChannel total(int column) { return {Kind::total, column}; }
   static OutputChannel back(int column) { return {Kind::back, column}; }
+  /// Groups of the columns a, b, c, d (-1: none), weighted with w, and with `cubic` with w^2 and w^3.
+  void weighted_groups(int a, int b, int c, int d, bool cubic) {
+    for (Kind kind : {Kind::back, Kind::second, Kind::third}) {
+      if (kind != Kind::back && !cubic) break;
+      const auto output = [&](int column) { return column < 0 ? OutputChannel{} : OutputChannel{kind, column}; };
+      group({output(a), output(b), output(c), output(d)});
+    }
+  }
 
  private:
   TableRequest& r_;
@@ -39,7 +47,7 @@ class RequestWriter {
 
 }  // namespace
 
-TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, Groups& groups) {
+TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, bool cubic, Groups& groups) {
   TableRequest request;
   request.rgb_extinction = terms.rgb();
   request.ratio = !plain;
@@ -61,7 +69,7 @@ TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool 
       request.columns.push_back(highlight);
     }
     groups.shaded = write.group({total(s), total(s + 1), total(s + 2), total(w)});
-    write.group({back(s), back(s + 1), back(s + 2), back(w)});
+    write.weighted_groups(s, s + 1, s + 2, w, cubic);
     if (terms.has(Term::E) || (terms.has(Term::P) && !lit_particles) || plain) {
       const int e = write.columns([&](SourceColumn& x) {
         x.E = true;
@@ -72,9 +80,12 @@ TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool 
     if (terms.has(Term::P) && lit_particles) {
       const int p = write.columns([](SourceColumn& x) { x.P = true; });
       groups.particles = write.group({total(p), total(p + 1), total(p + 2), none});
-      write.group({back(p), back(p + 1), back(p + 2), none});
+      write.weighted_groups(p, p + 1, p + 2, -1, cubic);
     }
-    if (request.rgb_extinction) groups.highlight = write.group({total(w + 1), total(w + 2), back(w + 1), back(w + 2)});
+    if (request.rgb_extinction) {
+      groups.highlight = write.group({total(w + 1), total(w + 2), back(w + 1), back(w + 2)});
+      if (cubic) write.group({{Kind::second, w + 1}, {Kind::second, w + 2}, {Kind::third, w + 1}, {Kind::third, w + 2}});
+    }
   }
   if (plain && request.rgb_extinction) groups.through = write.group({through(0), through(1), through(2), none});
   return request;

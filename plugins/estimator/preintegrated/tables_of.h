@@ -8,17 +8,18 @@
 
 namespace dvrlab::preintegrated {
 
-/// Which group of four channels holds what; -1: none. Back parts follow their totals.
+/// Which group of four channels holds what; -1: none. Parts weighted with powers of the position follow their totals.
 struct Groups {
   int shaded = -1;     // S.rgb and W of the first extinction channel
   int emitted = -1;    // E.rgb, with P where light does not change it; in plain tables with the first transmittance
   int particles = -1;  // P.rgb
-  int highlight = -1;  // W of the second and third extinction channel: totals, then back parts
+  int highlight = -1;  // W of the second and third extinction channel: totals, then back parts; C_2, then C_3
   int through = -1;    // plain tables with RGB extinction: T.rgb
 };
 
-/// What a medium's table must hold. `full`: with shading; `lit_particles`: m is not 1 everywhere.
-TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, Groups& groups);
+/// What a medium's table must hold. `full`: with shading; `lit_particles`: m is not 1 everywhere; `cubic`: light factors
+/// are cubics of the position.
+TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, bool cubic, Groups& groups);
 
 /// The table for the medium over [lo, hi] in n values: an equal one that was built before; with `partial` a copy of an
 /// old one in which the entries that pass a changed cell are computed anew (they may differ from a new table's in the
