@@ -22,6 +22,8 @@ const char* const color = "optical_model.color=[[0,0.85,0.8,%.6f],[160,0.85,0.8,
 const Contender contenders[] = {
     {"direct", R"({"type":"direct"})", narrow},
     {"approximative", R"({"type":"approximative"})", narrow},
+    {"power_series, order 1", R"({"type":"power_series","shading":"constant"})", narrow},
+    {"power_series, order 1, linear light", R"({"type":"power_series"})", narrow},
     {"preintegrated 1024, full", R"({"type":"preintegrated","table_size":1024,"update":"full"})", narrow},
     {"preintegrated 1024, partial", R"({"type":"preintegrated","table_size":1024,"update":"partial"})", narrow},
     {"preintegrated 1024, partial, colour", R"({"type":"preintegrated","table_size":1024,"update":"partial"})", color},

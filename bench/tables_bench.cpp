@@ -15,6 +15,9 @@
 #include "backends/cpu/isa.h"
 #include "bench/support/scalar_table.h"
 #include "framework/interfaces/error.h"
+#include "framework/scene/bin_groups.h"
+#include "framework/scene/mean_table.h"
+#include "plugins/estimator/power_series/moment_table.h"
 #include "plugins/estimator/preintegrated/table_build.h"
 
 namespace {
@@ -63,16 +66,15 @@ void print(std::vector<Contender>& contenders) {
   for (Contender& c : contenders) {
     std::sort(c.wall.begin(), c.wall.end());
     std::sort(c.cpu.begin(), c.cpu.end());
-    std::printf("| %s | %.2f | %.2f | %.2f | ", c.name.c_str(), c.wall[0], c.wall[c.wall.size() / 2], c.cpu[0]);
+    std::printf("| %s | %.4g | %.4g | %.4g | ", c.name.c_str(), c.wall[0], c.wall[c.wall.size() / 2], c.cpu[0]);
     if (c.goal > 0) std::printf("<= %g: %s", c.goal, c.wall[0] <= c.goal ? "yes" : "no");
     std::printf(" |\n");
   }
 }
 
-// A soft transfer function with every term. Values in [lo, hi] are altered by `edit`.
-Medium medium(double lo = 0, double hi = 0, double edit = 0) {
+// A soft transfer function with every term, of so many intervals. Values in [lo, hi] are altered by `edit`.
+Medium medium(double lo = 0, double hi = 0, double edit = 0, int intervals = 1000) {
   Medium m;
-  constexpr int intervals = 1000;
   for (int k = 0; k < intervals; ++k) {
     MediumInterval i{double(k) / intervals, double(k + 1) / intervals, {}};
     const double v = 0.5 * (i.v0 + i.v1), more = v > lo && v < hi ? 1 + edit : 1;
@@ -131,6 +133,21 @@ struct Edited {
   Table table;
 };
 
+/// What a one-dimensional table costs, from the medium to what a kernel reads: one thread, unshaded RGBA, a transfer
+/// function of 20 intervals. `moments`: of a power series.
+struct OneDimensional {
+  int bins, order, places;
+  bool fp64;
+  Medium source = medium(0, 0, 0, 20);
+  MediumTableOptions options = {};
+  void operator()() const {
+    const BinMedium means = bin_groups(source, MediumLayout(source, options), options.lo, options.hi, bins, false);
+    KernelUnit unit;
+    add_means(means, false, fp64, unit);
+    if (order * places > 1) power_series::moment_table(means, order, places, fp64);
+  }
+};
+
 void compare(int n, const Options& o) {
   const CellGrid grid{n, 0, 1};
   const Medium m = medium();
@@ -145,6 +162,13 @@ void compare(int n, const Options& o) {
     all.push_back(rgba.edit("the same, 1 thread, " + isa, 0, 1, means(1, isa)));
   all.push_back(
       {"straightforward scalar incremental build, 1 thread", [&] { bench::build_scalar(rgba.plain, 1.0, scalar); }});
+  const auto one = [&](const char* name, int order, int places, bool fp64, double goal) {
+    all.push_back({name, OneDimensional{n, order, places, fp64}, [] {}, n == 4096 ? goal : 0});
+  };
+  one("1-D, power series of order 1, 1 thread", 1, 1, false, 0.06);
+  one("1-D, power series of order 3, 1 thread", 3, 1, false, 0);
+  one("1-D, power series of order 3 in fp64, 1 thread", 3, 1, true, 0.15);
+  one("1-D, power series of order 1, cubic light, 1 thread", 1, 4, false, 0);
   all.push_back(ratios.edit("RGB ratios, whole rebuild", 0, 1));
   all.push_back(full.edit("hybrid, 12 channels, whole rebuild", 0, 1));
   all.push_back(all_ratios.edit("hybrid ratios, 11 channels, whole rebuild", 0, 1));

@@ -39,10 +39,11 @@ std::shared_ptr<GridField> pairs_of(const Field& field, double length, double lo
 /// The case as a view from above on its pairs.
 nlohmann::json pairs_config(const ResolvedCase& c, const GridField& grid, double length, int points) {
   nlohmann::json config = c.config;
-  for (const char* key : {"axes", "reference", "expect", "metrics", "clip", "lights", "illumination"}) config.erase(key);
+  for (const char* key : {"axes", "reference", "expect", "metrics", "clip", "lights", "illumination"})
+    config.erase(key);
   const double x = grid.hi[0] * grid.voxel, unit = 0.5 * std::sqrt(2 * x * x + length * length);
-  config["camera"] = {{"type", "orthographic"}, {"frame", "data"}, {"position", {0, 0, 4}}, {"target", {0, 0, 0}},
-                      {"up", {0, 1, 0}},        {"height", points * grid.voxel / unit}};
+  config["camera"] = {{"type", "orthographic"}, {"frame", "data"}, {"position", {0, 0, 4}},
+                      {"target", {0, 0, 0}},    {"up", {0, 1, 0}}, {"height", points * grid.voxel / unit}};
   config["sampling"] = {
       {"type", "uniform"}, {"step", length}, {"unit", "world"}, {"termination", 0}, {"skipping", false}};
   config["image"] = {{"size", {points, points}}, {"space", c.image.text("space")}};
@@ -139,7 +140,8 @@ TableStudy study_table(const ResolvedCase& c, const Registry& registry, const Fi
 
 FrameImage error_picture(const TableStudy& study) {
   // Every two decades from 1e-8 on: black, blue, green, orange, white.
-  constexpr std::array<Vector3, 5> ramp = {{{0, 0, 0}, {0.15, 0.25, 0.7}, {0.1, 0.65, 0.4}, {0.95, 0.6, 0.1}, {1, 1, 1}}};
+  constexpr std::array<Vector3, 5> ramp = {
+      {{0, 0, 0}, {0.15, 0.25, 0.7}, {0.1, 0.65, 0.4}, {0.95, 0.6, 0.1}, {1, 1, 1}}};
   const std::size_t n = study.value.size();
   FrameImage image;
   image.width = image.height = static_cast<int>(n);

@@ -83,7 +83,8 @@ const std::vector<VerbText>& verb_texts() {
        "1e-8, then blue, green, orange every two decades, white 1). Axes work as in an experiment: estimators, table "
        "sizes, families of transfer functions. Light factors are 1.",
        "the same numbers as a list",
-       {{"dvrlab table configs/papers/lee_shin2013/fig05.json --points 64", "the methods of a figure, in out/fig05/tables"},
+       {{"dvrlab table configs/papers/lee_shin2013/fig05.json --points 64",
+         "the methods of a figure, in out/fig05/tables"},
         {"dvrlab table my.json --set estimator.type=power_series --repeat 20 --json", "one of them, built 20 times"}}},
       {"list",
        parts,

@@ -69,16 +69,17 @@ std::vector<Uniform> uniforms_of(const std::string& plugin, const ParameterSet& 
     std::replace(name.begin(), name.end(), '.', '_');
     switch (p.type) {
       case ParameterType::boolean:
-        uniforms.push_back(Uniform::integer(name, parameters.boolean(p.name) ? 1 : 0));
+        uniforms.push_back(Uniform::constant_integer(name, parameters.boolean(p.name) ? 1 : 0));
         break;
       case ParameterType::integer:
-        uniforms.push_back(Uniform::integer(name, static_cast<int>(parameters.integer(p.name))));
+        // A constant: lavapipe (Mesa 22.3) reads outside its arrays where a uniform bounds a loop.
+        uniforms.push_back(Uniform::constant_integer(name, static_cast<int>(parameters.integer(p.name))));
         break;
       case ParameterType::number:
         uniforms.push_back(Uniform::real(name, parameters.number(p.name)));
         break;
       case ParameterType::choice:
-        uniforms.push_back(Uniform::integer(name, parameters.choice_index(p.name)));
+        uniforms.push_back(Uniform::constant_integer(name, parameters.choice_index(p.name)));
         break;
       case ParameterType::vector3: {
         const Vector3 v = parameters.vector3(p.name);

@@ -127,6 +127,7 @@ class SchemaWriter {
   void define_choice(const SectionSource& source, const std::vector<SchemaBranch>& branches,
                      const std::string& prefix) {
     const std::string section = source.key;
+    if (!source.list) paths_.known[section + ".type"] = refer(section + "/properties/type");
     Schema types = Schema::array(), summaries = Schema::array(), choices = Schema::array();
     for (const SchemaBranch& b : branches) {
       types.push_back(b.type);

@@ -47,7 +47,7 @@ struct FrameImage {
 };
 
 struct FrameCounters {
-  std::uint64_t samples = 0;     // segments that were composited
+  std::uint64_t samples = 0;  // segments that were composited
   /// Fetches of four numbers from transfer function and estimator tables, at the most: FrameJob::table_fetches per
   /// sample, set by who renders the case.
   std::uint64_t table_fetches = 0;

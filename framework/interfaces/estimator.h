@@ -57,11 +57,11 @@ struct EstimatorDeclaration {
 struct EstimatorContext {
   const Medium* medium;
   double value_min, value_max;
-  double step;          // world units
-  bool full;            // the kernel's variant has light factors; without them every source is lit by 1
-  bool lit_particles;   // m differs from 1
-  Precision precision;  // of the kernel
-  std::string folder;   // of the plugin: where its own libraries lie
+  double step;            // world units
+  bool full;              // the kernel's variant has light factors; without them every source is lit by 1
+  bool lit_particles;     // m differs from 1
+  Precision precision;    // of the kernel
+  std::string folder;     // of the plugin: where its own libraries lie
   const BinMedium* bins;  // of `mean_bins`, reshaped by shape_bins; empty without
 };
 

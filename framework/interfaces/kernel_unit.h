@@ -59,7 +59,8 @@ struct KernelUnit {
 bool walks(const KernelUnit& sampler);
 
 /// The numeric parameters of a plugin as uniforms `<plugin>_<name>`: numbers as f32, whole numbers, booleans and
-/// choices (their index) as i32, vectors as vec4. Texts, nodes and structures are left to the plugin.
+/// choices (their index) as i32, vectors as vec4; whole numbers, booleans and choices are constants. Texts, nodes and
+/// structures are left to the plugin.
 std::vector<Uniform> uniforms_of(const std::string& plugin, const ParameterSet& parameters);
 
 }  // namespace dvrlab

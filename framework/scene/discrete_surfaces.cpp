@@ -121,12 +121,11 @@ struct FiniteRange : OpaqueRange {
 
 // Beyond the outermost border the columns are constant: a border near by says the same as one at infinity.
 std::vector<FiniteRange> finite(const Medium& medium) {
-  const auto [front, back] = medium.interval.empty()
-                                 ? std::pair{0.0, 1.0}
-                                 : std::pair{medium.interval.front().v0, medium.interval.back().v1};
+  const auto [front, back] =
+      medium.interval.empty() ? std::pair{0.0, 1.0} : std::pair{medium.interval.front().v0, medium.interval.back().v1};
   std::vector<FiniteRange> ranges;
   for (const OpaqueRange& o : disjoint(medium.opaque)) {
-    FiniteRange r{o, o.v0 < -1e30, o.v1 > 1e30};
+    FiniteRange r{o, o.v0<-1e30, o.v1> 1e30};
     if (r.beyond_low) r.v0 = std::min(front, o.v1) - 1;
     if (r.beyond_high) r.v1 = std::max(back, o.v0) + 1;
     ranges.push_back(r);
@@ -141,8 +140,8 @@ std::vector<OpaqueRange> disjoint(const std::vector<OpaqueRange>& ranges) {
   for (const OpaqueRange& r : ranges)
     if (r.v0 < r.v1) add_outside(kept, r);
   for (const OpaqueRange& r : ranges) {
-    const bool known = std::any_of(kept.begin(), kept.end(),
-                                   [&](const OpaqueRange& k) { return r.v0 >= k.v0 && r.v0 <= k.v1; });
+    const bool known =
+        std::any_of(kept.begin(), kept.end(), [&](const OpaqueRange& k) { return r.v0 >= k.v0 && r.v0 <= k.v1; });
     if (r.v0 == r.v1 && !known) kept.push_back(r);
   }
   std::sort(kept.begin(), kept.end(), [](const OpaqueRange& a, const OpaqueRange& b) { return a.v0 < b.v0; });

@@ -18,8 +18,8 @@ std::vector<OpaqueRange> disjoint(const std::vector<OpaqueRange>& ranges);
 void add_discrete_surfaces(const Medium& medium, const MediumTableOptions& options, OpaquePrediction prediction,
                            KernelUnit& unit);
 
-/// The medium with its columns continued from outside into opaque ranges, to their middle. No segment enters a range, but
-/// a table's cell may lie across its end: there it must hold what is in front.
+/// The medium with its columns continued from outside into opaque ranges, to their middle. No segment enters a range,
+/// but a table's cell may lie across its end: there it must hold what is in front.
 Medium continued_into_opaque(const Medium& medium);
 
 /// The medium without opaque values: `extinction` (per world length) stands for an infinite one in opaque ranges, a

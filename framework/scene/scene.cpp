@@ -167,8 +167,8 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
                      shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder, &bins},
                     job.estimator);
   // A value of the medium's table is two fetches per group; a mean six.
-  job.table_fetches = declared.points * (options.nodes ? 0 : 2 * layout.count()) +
-                      declared.means * 6 * layout.count() + job.estimator.fetches;
+  job.table_fetches = declared.points * (options.nodes ? 0 : 2 * layout.count()) + declared.means * 6 * layout.count() +
+                      job.estimator.fetches;
   end_phase("estimator tables");
   return scene;
 }

@@ -1,5 +1,5 @@
-// Empty-space skipping is speed only: the same bits with and without, for tables as coarse as they come, whose cells smear
-// what contributes over values that contribute nothing.
+// Empty-space skipping is speed only: the same bits with and without, for tables as coarse as they come, whose cells
+// smear what contributes over values that contribute nothing.
 #include <cstdio>
 
 #include "tests/support/render.h"
@@ -18,7 +18,8 @@ json config(json estimator) {
            {{"type", "absorption_emission"},
             {"tf", exact ? "nodes" : "table"},
             {"length_unit", "voxel"},
-            {"opacity", {{90, 0}, {100, 0.2}, {110, 0}, {180, 0}, {200, 0.5}, {204, 0}, {230, 0}, {230, 1}, {240, 1}, {240, 0}}},
+            {"opacity",
+             {{90, 0}, {100, 0.2}, {110, 0}, {180, 0}, {200, 0.5}, {204, 0}, {230, 0}, {230, 1}, {240, 1}, {240, 0}}},
             {"color", {{0, 0.2, 0.4, 1}, {255, 1, 0.7, 0.2}}}}},
           {"estimator", std::move(estimator)},
           {"camera", {{"type", "perspective"}, {"position", {1.3, -2.2, 1.1}}, {"up", {0, 0, 1}}, {"fov_deg", 34}}},
@@ -70,8 +71,8 @@ TEST_P(Skipping, ChangesNoBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, Skipping,
-                         testing::Values("direct", "exact", "average", "approximative", "power_series", "engel_1d", "kye_1d",
-                                         "preintegrated"),
+                         testing::Values("direct", "exact", "average", "approximative", "power_series", "engel_1d",
+                                         "kye_1d", "preintegrated"),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

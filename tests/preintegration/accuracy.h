@@ -21,9 +21,9 @@ using preintegrated::TableRequest;
 using EntryOf = std::function<double(int i, int j, int output)>;
 EntryOf entries_of(const preintegrated::Table& table);
 
-/// The largest |x - x_def| / (2^-24 |x_def| + 3 n 2^-53 scale) over all entries and outputs of a table of C, B and T;
-/// at most 1 for a right one. 2^-24 is the rounding to fp32, 3 n 2^-53 the bound of the slide (docs/math, B5); scale is
-/// the largest |x_def| of the output. Infinite when there is a NaN.
+/// The largest |x - x_def| / (2^-24 |x_def| + 3 n 2^-53 scale) over all entries and outputs of a table of C, B and T (6
+/// n for C_2, 9 n for C_3); at most 1 for a right one. 2^-24 is the rounding to fp32, 3 n 2^-53 the bound of the slide
+/// (docs/math, B5); scale is the largest |x_def| of the output. Infinite when there is a NaN.
 double worst_error(const EntryOf& entry, const Cells& cells, const TableRequest& request, double h);
 
 /// The same for a table of ratios, of ratio * C_approx, where C_approx (docs/math, B2) is not below 1e-7 of its largest

@@ -22,10 +22,16 @@ constexpr double mu = 1.5, length = 2.0, side = 0.6, centre = 1.1;
 /// One segment past the centre of a radial field, where the gradient turns by more than a right angle: a homogeneous
 /// medium, lit from the eye.
 json turning_ray() {
-  json config = ray_config({{"field", "radial"}, {"center", {centre, side, 0}}, {"offset", 0}, {"scale", 0.5}}, length, length);
-  config["optical_model"] = {{"type", "absorption_emission"}, {"tf", "nodes"}, {"shaded", true}, {"extinction", {{0, mu}}}, {"color", {{0, 0.8, 0.5, 0.2}}}};
+  json config =
+      ray_config({{"field", "radial"}, {"center", {centre, side, 0}}, {"offset", 0}, {"scale", 0.5}}, length, length);
+  config["optical_model"] = {{"type", "absorption_emission"},
+                             {"tf", "nodes"},
+                             {"shaded", true},
+                             {"extinction", {{0, mu}}},
+                             {"color", {{0, 0.8, 0.5, 0.2}}}};
   config["lights"] = {{{"type", "head"}}};
-  config["illumination"] = {{{"type", "blinn_phong"}, {"ambient", 0.1}, {"diffuse", 0.7}, {"specular", 0.3}, {"shininess", 4}}};
+  config["illumination"] = {
+      {{"type", "blinn_phong"}, {"ambient", 0.1}, {"diffuse", 0.7}, {"specular", 0.3}, {"shininess", 4}}};
   return config;
 }
 
@@ -66,12 +72,11 @@ double expected(double color, bool cubic) {
 
 TEST_P(NonlinearGradient, IsTheCubicOfItsFourPlaces) {
   const double color[3] = {0.8, 0.5, 0.2};
-  const std::vector<json> estimators = {
-      {{"type", "exact"}},
-      {{"type", "power_series"}},
-      {{"type", "power_series"}, {"order", 3}},
-      {{"type", "preintegrated"}, {"table_size", 512}},
-      {{"type", "preintegrated"}, {"table_size", 512}, {"lookup", "plain"}}};
+  const std::vector<json> estimators = {{{"type", "exact"}},
+                                        {{"type", "power_series"}},
+                                        {{"type", "power_series"}, {"order", 3}},
+                                        {{"type", "preintegrated"}, {"table_size", 512}},
+                                        {{"type", "preintegrated"}, {"table_size", 512}, {"lookup", "plain"}}};
   for (json estimator : estimators) {
     SKIP_WHEN_NOT_SUPPORTED({
       estimator["shading"] = "nonlinear";
@@ -82,7 +87,7 @@ TEST_P(NonlinearGradient, IsTheCubicOfItsFourPlaces) {
       const FrameImage linear = image(turning_ray(), estimator);
       for (std::size_t c = 0; c < 3; ++c) {
         const bool split = estimator["type"] == "power_series";
-        EXPECT_NEAR(r.color[c], expected(color[c], true), split ? 2e-3 : 1e-5) << estimator.dump();
+        EXPECT_NEAR(r.color[c], expected(color[c], true), split ? 6e-3 : 1e-5) << estimator.dump();
         EXPECT_GT(std::abs(linear.color[c] - expected(color[c], true)), 0.03) << "negative control";
       }
       EXPECT_NEAR(r.trans[0], std::exp(-mu * length), 1e-5) << estimator.dump();
@@ -107,16 +112,16 @@ TEST_P(NonlinearGradient, TablesAndSeriesFollowTheExactIntegral) {
         estimator["shading"] = "nonlinear";
         return largest_difference(image(layers(segments), estimator), exact);
       };
-      const double table = error({{"type", "preintegrated"}, {"table_size", 1024}});
-      const double plain = error({{"type", "preintegrated"}, {"table_size", 1024}, {"lookup", "plain"}});
+      const double table = error({{"type", "preintegrated"}, {"table_size", 2048}});
+      const double plain = error({{"type", "preintegrated"}, {"table_size", 2048}, {"lookup", "plain"}});
       const double one = error({{"type", "power_series"}});
       const double three = error({{"type", "power_series"}, {"order", 3}});
       const double published = error({{"type", "power_series"}, {"order", 3}, {"variant", "published_gradient"}});
-      std::printf("%d segments: 2-D %.1e, plain %.1e, order 1 %.1e, order 3 %.1e; equation 24 as printed %.1e\n", segments,
-                  table, plain, one, three, published);
-      EXPECT_LE(table, 3e-5);
+      std::printf("%d segments: 2-D %.1e, plain %.1e, order 1 %.1e, order 3 %.1e; equation 24 as printed %.1e\n",
+                  segments, table, plain, one, three, published);
+      EXPECT_LE(table, 6e-5);
       EXPECT_LE(plain, 1e-4);
-      EXPECT_LE(three, segments == 4 ? 2e-3 : 1e-5);
+      EXPECT_LE(three, segments == 4 ? 2e-3 : 3e-5);
       EXPECT_LE(one, segments == 4 ? 3e-2 : 3e-3);
       EXPECT_LT(three, one);
       EXPECT_GT(published, 20 * three) << "the sign error of equation 24";
@@ -130,13 +135,24 @@ TEST_P(NonlinearGradient, PiecesBetweenDiracTermsKeepTheCubic) {
   config["optical_model"] = {{"type", "hybrid"},
                              {"tf", "nodes"},
                              {"scattering", {{"opacity", {{0, 0.3}}}, {"color", {{0, 0.8, 0.5, 0.2}}}}},
-                             {"surface", {{"opacity", {{0.2, 0}, {0.4, 0.5}, {0.6, 0}}}, {"delta", {{{"value", 0.5}, {"opacity", 0.4}}, {{"value", 0.42}, {"opacity", 0.2}}}}}},
+                             {"surface",
+                              {{"opacity", {{0.2, 0}, {0.4, 0.5}, {0.6, 0}}},
+                               {"delta", {{{"value", 0.5}, {"opacity", 0.4}}, {{"value", 0.42}, {"opacity", 0.2}}}}}},
                              {"dv_std", 0.2}};
   config["sampling"]["step"] = length / 3;
   SKIP_WHEN_NOT_SUPPORTED({
     const FrameImage exact = image(config, {{"type", "exact"}, {"shading", "nonlinear"}});
-    EXPECT_LE(largest_difference(image(config, {{"type", "preintegrated"}, {"table_size", 2048}, {"shading", "nonlinear"}}), exact), 1e-4);
-    EXPECT_LE(largest_difference(image(config, {{"type", "power_series"}, {"shading", "nonlinear"}}), exact), 3e-2);
+    const FrameImage linear = image(config, {{"type", "exact"}, {"shading", "linear"}});
+    EXPECT_GT(largest_difference(linear, exact), 0.02);
+    for (json estimator : {json{{"type", "preintegrated"}, {"table_size", 2048}}, json{{"type", "power_series"}}}) {
+      // What a ratio of another length and order 1 leave, linear light has too.
+      estimator["shading"] = "linear";
+      const double rest = largest_difference(image(config, estimator), linear);
+      estimator["shading"] = "nonlinear";
+      const double error = largest_difference(image(config, estimator), exact);
+      std::printf("%s: %.1e under linear light, %.1e under the cubic\n", estimator.dump().c_str(), rest, error);
+      EXPECT_LE(error, 2 * rest + 1e-5) << estimator.dump();
+    }
   })
 }
 

@@ -79,8 +79,7 @@ TEST_P(OpaquePredictions, NeverMissTheFirstWall) {
         }
         EXPECT_EQ(r.trans[0], 0.0f) << estimator << " " << trial;
         // Only the table's colours in the bin of the wall's edge may differ.
-        for (std::size_t c = 0; c < 3; ++c)
-          EXPECT_NEAR(r.color[c], first->color[c], 0.02) << estimator << " " << trial;
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(r.color[c], first->color[c], 0.02) << estimator << " " << trial;
         ++met;
         if (estimator == std::string("exact")) continue;
         // Negative control: the prediction as published loses a wall that a falling segment meets.
@@ -103,7 +102,8 @@ TEST_P(OpaquePredictions, NeverMissTheFirstWall) {
 
 // Without opaque values the switch has nothing to say: the same bits.
 TEST_P(OpaquePredictions, ChangeNothingWithoutOpaqueValues) {
-  json config = ray_config({{"field", "sinusoid"}, {"direction", {1, 0, 0}}, {"a", 0.5}, {"b", 0.45}, {"omega", 9}, {"phi", 0.3}}, 3, 0.17);
+  json config = ray_config(
+      {{"field", "sinusoid"}, {"direction", {1, 0, 0}}, {"a", 0.5}, {"b", 0.45}, {"omega", 9}, {"phi", 0.3}}, 3, 0.17);
   config["optical_model"] = {{"type", "absorption_emission"},
                              {"opacity", {{0.1, 0}, {0.4, 0.6}, {0.5, 0.9}, {0.8, 0.1}}},
                              {"color", {{0, 0.2, 0.4, 1}, {1, 1, 0.7, 0.2}}}};

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <random>
 
+#include "tests/support/segment_integral.h"
 #include "tests/truth/ray_cases.h"
 
 namespace dvrlab::test {
@@ -85,8 +86,9 @@ TEST_P(PowerSeries, OrdersOnTheRamp) {
         const double a = largest_difference(image(golden_medium_config("ramp", 4, backwards), estimator), truth);
         const double b = largest_difference(image(golden_medium_config("ramp", 16, backwards), estimator), truth);
         std::printf("order %d: %.2e at N = 4 (table %.1e), %.2e at 16 (%.1e)\n", row.order, a, row.at_4, b, row.at_16);
-        EXPECT_LE(a, 2 * row.at_4);
-        EXPECT_LE(b, 2 * row.at_16);
+        const double times = backwards ? 5 : 2;  // the table's rays run upwards
+        EXPECT_LE(a, times * row.at_4);
+        EXPECT_LE(b, times * row.at_16);
         EXPECT_GE(a / b, row.least_ratio);
       })
     }
@@ -109,11 +111,12 @@ TEST_P(PowerSeries, OneColourIsExact) {
   }
 }
 
-// ---- random media against `exact`, in fp64: the bounds of docs/math B.6 ------------------------------------------------
+// ---- random media against the exact integral, in fp64: the bounds of docs/math B.6
+// ------------------------------------------------
 
-constexpr int steps = 64;  // of the transfer functions, and bins of the tables: no error but the series' own
+constexpr int steps = 16;  // of the transfer functions, and bins of the tables: no error but the series' own
 
-/// Constant between multiples of 1/64: n pairs of nodes.
+/// Constant between multiples of 1/16: n pairs of nodes.
 json stairs(const std::vector<std::array<double, 3>>& value, bool grey) {
   json nodes = json::array();
   for (int k = 0; k < steps; ++k) {
@@ -178,6 +181,20 @@ RandomSegment random_segment(std::mt19937& random) {
   return s;
 }
 
+/// The same as a medium, for the integral that is independent of the framework's kernels.
+Medium medium_of(const RandomSegment& s) {
+  Medium m;
+  for (std::size_t k = 0; k < s.tau.size(); ++k) {
+    MediumInterval i{double(k) / steps, double(k + 1) / steps, {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+      i.c[std::size_t(column(Term::tau_l, int(c)))] = {s.tau[k][c], 0, 0};
+      i.c[std::size_t(column(Term::P, int(c)))] = {s.tau[k][c] * s.color[k][c], 0, 0};
+    }
+    m.interval.push_back(i);
+  }
+  return m;
+}
+
 // 10,000 media: every order stays inside its bound at every depth it is safe for, order 1 at every depth at all.
 TEST(PowerSeriesBounds, RandomMedia) {
   std::mt19937 random(2013);
@@ -186,15 +203,17 @@ TEST(PowerSeriesBounds, RandomMedia) {
   for (int trial = 0; trial < 10000; ++trial) {
     const RandomSegment s = random_segment(random);
     const int order = 1 + trial % 4;
-    const FrameImage truth = image64(s.config, {{"type", "exact"}});
-    const FrameImage r = image64(s.config, {{"type", "power_series"}, {"order", order}, {"fallback", "none"}, {"table_size", steps}});
+    const FrameImage r =
+        image64(s.config, {{"type", "power_series"}, {"order", order}, {"fallback", "none"}, {"table_size", steps}});
+    const SegmentIntegral truth = integrate_segment(medium_of(s), s.v0, s.v1, s.length);
     const double M = s.depth();
     const double safe[] = {0, 1e9, 0.5, 1, 1}, factor[] = {0, 0.125, 0.08, 0.025, 0.006};
     for (std::size_t c = 0; c < 3; ++c) {
-      ASSERT_NEAR(r.transmittance(c), truth.transmittance(c), 1e-12) << "trial " << trial;
+      ASSERT_NEAR(r.transmittance(c), truth.T[c], 1e-12) << "trial " << trial;
       if (M > safe[order]) continue;
-      const double bound = order == 1 ? std::min(M * M / 8, 1.0) * s.oscillation(c) : factor[order] * std::pow(M, order + 1);
-      const double error = std::abs(r.radiance(c) - truth.radiance(c));
+      const double bound =
+          order == 1 ? std::min(M * M / 8, 1.0) * s.oscillation(c) : factor[order] * std::pow(M, order + 1);
+      const double error = std::abs(r.radiance(c) - truth.P[c]);
       ASSERT_LE(error, bound + 1e-12) << "order " << order << ", depth " << M << ", trial " << trial << s.config.dump();
       if (bound > 1e-9) worst[order] = std::max(worst[order], error / bound);
       ++judged[order];
@@ -202,7 +221,7 @@ TEST(PowerSeriesBounds, RandomMedia) {
     // Negative control: beyond the safe depth the bound of order 1 does not hold for the higher orders.
     if (order > 1 && M > 2)
       for (std::size_t c = 0; c < 3; ++c)
-        above_order_one += std::abs(r.radiance(c) - truth.radiance(c)) > std::min(M * M / 8, 1.0) * s.oscillation(c);
+        above_order_one += std::abs(r.radiance(c) - truth.P[c]) > std::min(M * M / 8, 1.0) * s.oscillation(c);
   }
   for (int order = 1; order <= 4; ++order) {
     std::printf("order %d: %d radiances, worst error %.2f of the bound\n", order, judged[order], worst[order]);
@@ -222,27 +241,32 @@ TEST(PowerSeriesBounds, FallbacksInDeepSlabs) {
     if (M < 1.5 || M > 12) continue;
     const FrameImage truth = image64(s.config, {{"type", "exact"}});
     const auto error = [&](const char* fallback, int order) {
-      const FrameImage r = image64(s.config, {{"type", "power_series"}, {"order", order}, {"fallback", fallback}, {"table_size", steps}, {"most_parts", 64}});
+      const FrameImage r = image64(s.config, {{"type", "power_series"},
+                                              {"order", order},
+                                              {"fallback", fallback},
+                                              {"table_size", steps},
+                                              {"most_parts", 64}});
       double e = 0;
       for (std::size_t c = 0; c < 3; ++c) e = std::max(e, std::abs(r.radiance(c) - truth.radiance(c)));
       return e;
     };
     for (int order : {2, 3, 4}) {
-      EXPECT_EQ(error("order1", order), error("none", 1)) << "too deep for any higher order";
+      EXPECT_NEAR(error("order1", order), error("none", 1), 1e-12) << "too deep for any higher order";
       sum_split += error("split", order);
       sum_one += error("order1", order);
       sum_none += std::min(error("none", order), 10.0);
     }
   }
-  std::printf("mean errors in proportion: split 1, order 1 %.1f, none %.1f\n", sum_one / sum_split, sum_none / sum_split);
+  std::printf("mean errors in proportion: split 1, order 1 %.1f, none %.1f\n", sum_one / sum_split,
+              sum_none / sum_split);
   EXPECT_LT(4 * sum_split, sum_one);
   EXPECT_LT(sum_one, sum_none);
 }
 
 // ---- what the paper prints ------------------------------------------------------------------------------------------
 
-// The pseudo-code pairs the colour of a bin with the extinction of the bin below: a red spike in a thin blue medium comes
-// out blue, whichever way it is passed.
+// The pseudo-code pairs the colour of a bin with the extinction of the bin below: a red spike in a thin blue medium
+// comes out blue, whichever way it is passed.
 TEST_P(PowerSeries, PublishedIndexIsOffByOne) {
   for (bool backwards : {false, true}) {
     json config = ray_config(ramp_field(backwards ? 1 : 0, backwards ? 0 : 1, 1), 1, 1.0 / 7);
@@ -280,7 +304,11 @@ TEST_P(PowerSeries, PublishedPostClassification) {
     EXPECT_GE(e[0] / e[1], 1.7);
     EXPECT_LE(e[0] / e[1], 2.4);
     json one = ray_config(ramp_field(0.5, 0.5, 1), 1, 1);
-    one["data"] = {{"type", "procedural"}, {"evaluate", "formula"}, {"bounds", {{-8, -8, -8}, {8, 8, 8}}}, {"field", "constant"}, {"value", 0.5}};
+    one["data"] = {{"type", "procedural"},
+                   {"evaluate", "formula"},
+                   {"bounds", {{-8, -8, -8}, {8, 8, 8}}},
+                   {"field", "constant"},
+                   {"value", 0.5}};
     one["optical_model"] = model({{0, 2}}, {{0, 1, 1, 1}});
     const FrameImage bright = image(one, {{"type", "direct"}, {"variant", "published"}});
     EXPECT_NEAR(bright.color[0], 2.0, 1e-5);
@@ -288,7 +316,8 @@ TEST_P(PowerSeries, PublishedPostClassification) {
   })
 }
 
-// Kye and Engel at another length than the nominal one: the last segment's transmittance is the power of the whole one's.
+// Kye and Engel at another length than the nominal one: the last segment's transmittance is the power of the whole
+// one's.
 TEST_P(PowerSeries, FixedLengthMethodsRescaleTheLastSegment) {
   json config = golden_medium_config("ramp", 1, false);
   config["sampling"]["step"] = 0.8;  // a whole segment and a quarter of one

@@ -12,7 +12,8 @@ constexpr Parameter parameters[] = {
      "Max, equation 5), the mean density (equation 6), or the depth itself as the opacity (equation 8).",
      Affects::pixels, "", "\"mean_density\""},
     {"table_size", ParameterType::integer, "", "4096", "[2,65536]",
-     "Bins of the cumulative tables: of the exact depth (rule exact_depth), and of the barycentre (shading barycentre).",
+     "Bins of the cumulative tables: of the exact depth (rule exact_depth), and of the barycentre (shading "
+     "barycentre).",
      Affects::pixels, R"({"estimator":{"rule":"exact_depth"}})", "16"},
     shading_with_barycentre_key,
     approximate_dirac_key};
@@ -24,7 +25,8 @@ class Average : public EstimatorPlugin {
     d.samples = EstimatorDeclaration::Samples::ends;
     d.shading = segment_shading(p);
     d.barycentre = p.text("shading") == "barycentre";
-    if (p.text("rule") == "exact_depth" || d.barycentre) d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
+    if (p.text("rule") == "exact_depth" || d.barycentre)
+      d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
     d.points = 2;
     d.means = p.text("rule") == "exact_depth" ? 1 : 0;
     d.handles = Terms::every_column | Terms::rgb_bit;

@@ -7,10 +7,11 @@
 namespace dvrlab::engel_1d {
 namespace {
 
-constexpr Parameter parameters[] = {
-    {"table_size", ParameterType::integer, "", "4096", "[2,65536]", "Bins of the cumulative tables.", Affects::pixels,
-     "", "16"},
-    shading_key, opaque_prediction_key, max_extinction_key};
+constexpr Parameter parameters[] = {{"table_size", ParameterType::integer, "", "4096", "[2,65536]",
+                                     "Bins of the cumulative tables.", Affects::pixels, "", "16"},
+                                    shading_key,
+                                    opaque_prediction_key,
+                                    max_extinction_key};
 
 class Engel1d : public EstimatorPlugin {
  public:

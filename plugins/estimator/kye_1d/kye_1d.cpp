@@ -7,10 +7,11 @@
 namespace dvrlab::kye_1d {
 namespace {
 
-constexpr Parameter parameters[] = {
-    {"table_size", ParameterType::integer, "", "4096", "[2,65536]", "Bins of the cumulative tables.", Affects::pixels,
-     "", "16"},
-    shading_key, opaque_prediction_key, max_extinction_key};
+constexpr Parameter parameters[] = {{"table_size", ParameterType::integer, "", "4096", "[2,65536]",
+                                     "Bins of the cumulative tables.", Affects::pixels, "", "16"},
+                                    shading_key,
+                                    opaque_prediction_key,
+                                    max_extinction_key};
 
 class Kye1d : public EstimatorPlugin {
  public:
@@ -31,8 +32,7 @@ class Kye1d : public EstimatorPlugin {
     for (int j = 0; j < bins.count; ++j) {
       const Vector3 tau = bins.extinction(j);
       Vector3 factor;
-      for (std::size_t c = 0; c < 3; ++c)
-        factor[c] = tau[c] > 0 ? -std::expm1(-tau[c] * step) / (tau[c] * step) : 1;
+      for (std::size_t c = 0; c < 3; ++c) factor[c] = tau[c] > 0 ? -std::expm1(-tau[c] * step) / (tau[c] * step) : 1;
       bins.scale(j, factor);
     }
   }

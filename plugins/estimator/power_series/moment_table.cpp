@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
-#include <vector>
+#include <type_traits>
 
 namespace dvrlab::power_series {
 namespace {
@@ -28,15 +28,14 @@ struct Gauss {
   int points;
   double x[4], weight[4];
 };
-constexpr Gauss gauss[] = {
-    {1, {0.5}, {1}},
-    {2, {0.21132486540518712, 0.78867513459481288}, {0.5, 0.5}},
-    {3,
-     {0.11270166537925831, 0.5, 0.88729833462074169},
-     {0.27777777777777778, 0.44444444444444444, 0.27777777777777778}},
-    {4,
-     {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629},
-     {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}}};
+constexpr Gauss gauss[] = {{1, {0.5}, {1}},
+                           {2, {0.21132486540518712, 0.78867513459481288}, {0.5, 0.5}},
+                           {3,
+                            {0.11270166537925831, 0.5, 0.88729833462074169},
+                            {0.27777777777777778, 0.44444444444444444, 0.27777777777777778}},
+                           {4,
+                            {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629},
+                            {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}}};
 
 /// One half of a block: `length` bins from `first` on in steps of `way`, away from the middle.
 template <class T, int N, int P>
@@ -81,15 +80,16 @@ DVRLAB_INLINE void fill_half(const BinMedium& bins, int first, int way, int leng
 template <class T, int N, int P>
 DVRLAB_WIDE void fill(const BinMedium& bins, int levels, T* table) {
   const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(bins.count) * bins.groups * N * P;
-  std::vector<four> sum(static_cast<std::size_t>(bins.groups * N * P));
+  constexpr int most_groups = 8;
+  four sum[most_groups * N * P];
   for (int k = 0; k < levels; ++k) {
     T* level = table + k * row;
     const int half = 1 << k;
     for (int middle = half; middle - half < bins.count; middle += 2 * half) {
       // Below the middle from the highest bin that there is; entries beside missing bins are never asked for.
       const int top = std::min(middle, bins.count);
-      fill_half<T, N, P>(bins, top - 1, -1, top - (middle - half), 1.0 / half, sum.data(), level);
-      fill_half<T, N, P>(bins, middle, 1, std::clamp(bins.count - middle, 0, half), 1.0 / half, sum.data(), level);
+      fill_half<T, N, P>(bins, top - 1, -1, top - (middle - half), 1.0 / half, sum, level);
+      fill_half<T, N, P>(bins, middle, 1, std::clamp(bins.count - middle, 0, half), 1.0 / half, sum, level);
     }
   }
 }

@@ -1,10 +1,11 @@
 // Moments of a medium over runs of bins, for any two bins in two entries (docs/math B.6, B.7).
 //
-// Level k cuts the bins into blocks of 2^(k+1) with a middle each. The entry of bin j on level k holds the bins strictly
-// between j and the middle of its block (in the upper half the middle's own bin too): of each number of the medium the
-// integrals of G y^i r^l over them, y the depth and r the distance from the middle, the distance in units of 2^k bins. Two
-// bins j0 < j1 whose highest differing bit is k lie in the two halves of one block of level k, so the entries of both hold
-// what lies between them. Everything is a sum of terms of one sign: no digits are lost, in float either.
+// Level k cuts the bins into blocks of 2^(k+1) with a middle each. The entry of bin j on level k holds the bins
+// strictly between j and the middle of its block (in the upper half the middle's own bin too): of each number of the
+// medium the integrals of G y^i r^l over them, y the depth and r the distance from the middle, the distance in units of
+// 2^k bins. Two bins j0 < j1 whose highest differing bit is k lie in the two halves of one block of level k, so the
+// entries of both hold what lies between them. Everything is a sum of terms of one sign: no digits are lost, in float
+// either.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,9 @@ constexpr Parameter parameters[] = {
      Affects::pixels,
      R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0,0.01],[0.3,0.01],[0.8,0.2]]}})",
      "\"published\""},
-    shading_of_every_kind_key, opaque_prediction_key, max_extinction_key};
+    shading_of_every_kind_key,
+    opaque_prediction_key,
+    max_extinction_key};
 
 constexpr double safe_depth[] = {0, 0, 0.5, 1, 1};  // docs/math B.6
 
@@ -75,8 +77,7 @@ class PowerSeries : public EstimatorPlugin {
       Vector3 factor;
       for (std::size_t c = 0; c < 3; ++c) factor[c] = tau[c] > 0 ? below[c] / tau[c] : 0;
       bins.scale(j, factor);
-      for (std::size_t c = 0; c < 3; ++c)
-        bins.bin(j)[bins.extinction_at[c]] = below[c];
+      for (std::size_t c = 0; c < 3; ++c) bins.bin(j)[bins.extinction_at[c]] = below[c];
       below = tau;
     }
   }
@@ -96,6 +97,7 @@ class PowerSeries : public EstimatorPlugin {
       unit.uniforms.push_back(Uniform::constant_integer(std::string("power_series_") + name, value));
     };
     const int points = (order + places) / 2;
+    integer("terms", order);
     integer("places", places);
     integer("bins", context.bins->count);
     integer("points", points);

@@ -23,7 +23,8 @@ double psi(double q, int n) {
   return sum;
 }
 
-// A part of a segment in the monoid (B4); D, D2, D3 are weighted with the position in cells from the front and its powers.
+// A part of a segment in the monoid (B4); D, D2, D3 are weighted with the position in cells from the front and its
+// powers.
 struct Triple {
   double T = 1, C = 0, D = 0, length = 0, D2 = 0, D3 = 0;
 };
@@ -54,7 +55,11 @@ double dirac_source(const SourceColumn& s, const CellDirac& d) {
 Triple homogeneous(double length, double q, double G) {
   q *= length;
   G *= length;
-  return {std::exp(-q),          G * phi1(q),          length * G * psi(q, 1), length, length * length * G * psi(q, 2),
+  return {std::exp(-q),
+          G * phi1(q),
+          length * G * psi(q, 1),
+          length,
+          length * length * G * psi(q, 2),
           length * length * length * G * psi(q, 3)};
 }
 

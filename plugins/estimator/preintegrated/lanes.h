@@ -165,11 +165,13 @@ DVR_INLINE vd psi_of(vd q, vd t, vd phi1) {
   return select(thin, series, (phi1 - t) / select(thin, all(1.0), q));
 }
 
-/// psi_2(q) = int_0^1 u^2 e^-qu du and psi_3(q) with u^3, by the recurrence q psi_k = k psi_(k-1) - e^-q or their series.
+/// psi_2(q) = int_0^1 u^2 e^-qu du and psi_3(q) with u^3, by the recurrence q psi_k = k psi_(k-1) - e^-q or their
+/// series.
 DVR_INLINE void higher_psi_of(vd q, vd t, vd psi, vd& second, vd& third) {
   const vm thin = q < all(0.25);
-  constexpr double inverse_factorial[] = {1.0,       -1.0,         1.0 / 2,      -1.0 / 6,      1.0 / 24,       -1.0 / 120,
-                                          1.0 / 720, -1.0 / 5040, 1.0 / 40320, -1.0 / 362880, 1.0 / 3628800, -1.0 / 39916800};
+  constexpr double inverse_factorial[] = {1.0,         -1.0,          1.0 / 2,       -1.0 / 6,
+                                          1.0 / 24,    -1.0 / 120,    1.0 / 720,     -1.0 / 5040,
+                                          1.0 / 40320, -1.0 / 362880, 1.0 / 3628800, -1.0 / 39916800};
   vd a = all(inverse_factorial[11] / 14), b = all(inverse_factorial[11] / 15);
 #pragma GCC unroll 12
   for (int k = 10; k >= 0; --k) {

@@ -81,9 +81,8 @@ class Preintegrated : public EstimatorPlugin {
     const bool plain = p.text("lookup") == "plain";
     const int n = static_cast<int>(p.integer("table_size"));
     Groups groups;
-    const TableRequest request =
-        request_of(context.medium->terms(), context.full, context.lit_particles, plain,
-                   p.text("shading") == "nonlinear", groups);
+    const TableRequest request = request_of(context.medium->terms(), context.full, context.lit_particles, plain,
+                                            p.text("shading") == "nonlinear", groups);
     auto table = table_of(*context.medium, context.value_min, context.value_max, n, request, context.step,
                           p.text("update") == "partial", {context.folder});
     const auto variant = static_cast<Variant>(p.choice_index("variant"));

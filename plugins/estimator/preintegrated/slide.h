@@ -187,7 +187,8 @@ struct Slide {
         const vd rest_second =
             at_least(s.D2[c] - R[e] * (last * (last * out + all(2.0) * moment_back) + second_back), 0.0);
         const vd rest_third = at_least(
-            s.D3[c] - R[e] * (last * (last * (last * out + all(3.0) * moment_back) + all(3.0) * second_back) + third_back),
+            s.D3[c] -
+                R[e] * (last * (last * (last * out + all(3.0) * moment_back) + all(3.0) * second_back) + third_back),
             0.0);
         s.D3[c] = third + t[e] * (rest_third + all(3.0) * (rest_second + rest_moment) + rest);
         s.D2[c] = second + t[e] * (rest_second + all(2.0) * rest_moment + rest);

@@ -39,14 +39,7 @@ typedef struct dvr_table_side {
   float* out[DVR_TABLE_MOST_CHANNELS / 4];         /* per group of 4 channels, 64-byte aligned */
 } dvr_table_side;
 
-enum {
-  DVR_TABLE_ZERO,
-  DVR_TABLE_TOTAL,
-  DVR_TABLE_BACK,
-  DVR_TABLE_SECOND,
-  DVR_TABLE_THIRD,
-  DVR_TABLE_TRANSMITTANCE
-};
+enum { DVR_TABLE_ZERO, DVR_TABLE_TOTAL, DVR_TABLE_BACK, DVR_TABLE_SECOND, DVR_TABLE_THIRD, DVR_TABLE_TRANSMITTANCE };
 
 typedef struct dvr_table_job {
   int32_t n, extinctions, columns, groups;

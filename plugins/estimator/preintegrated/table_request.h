@@ -16,11 +16,11 @@ struct SourceColumn {
 /// What one of the floats of an entry holds. `index` is a source column, for `transmittance` an extinction channel.
 struct OutputChannel {
   enum class Kind {
-    zero,          // padding
-    total,         // C of the column; as a ratio r = C / C_approx
-    back,          // C_1 = B, its part weighted with the position w, so that the front part is C - B; as a ratio B / C_approx
-    second,        // C_2, weighted with w^2, for light factors that are a cubic of w
-    third,         // C_3, weighted with w^3
+    zero,    // padding
+    total,   // C of the column; as a ratio r = C / C_approx
+    back,    // C_1 = B, its part weighted with the position w, so that the front part is C - B; as a ratio B / C_approx
+    second,  // C_2, weighted with w^2, for light factors that are a cubic of w
+    third,   // C_3, weighted with w^3
     transmittance  // T (not for ratio tables: there it follows from the one-dimensional tables)
   };
   Kind kind = Kind::zero;

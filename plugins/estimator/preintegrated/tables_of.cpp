@@ -84,7 +84,8 @@ TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool 
     }
     if (request.rgb_extinction) {
       groups.highlight = write.group({total(w + 1), total(w + 2), back(w + 1), back(w + 2)});
-      if (cubic) write.group({{Kind::second, w + 1}, {Kind::second, w + 2}, {Kind::third, w + 1}, {Kind::third, w + 2}});
+      if (cubic)
+        write.group({{Kind::second, w + 1}, {Kind::second, w + 2}, {Kind::third, w + 1}, {Kind::third, w + 2}});
     }
   }
   if (plain && request.rgb_extinction) groups.through = write.group({through(0), through(1), through(2), none});

@@ -17,8 +17,8 @@ struct Groups {
   int through = -1;    // plain tables with RGB extinction: T.rgb
 };
 
-/// What a medium's table must hold. `full`: with shading; `lit_particles`: m is not 1 everywhere; `cubic`: light factors
-/// are cubics of the position.
+/// What a medium's table must hold. `full`: with shading; `lit_particles`: m is not 1 everywhere; `cubic`: light
+/// factors are cubics of the position.
 TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, bool cubic, Groups& groups);
 
 /// The table for the medium over [lo, hi] in n values: an equal one that was built before; with `partial` a copy of an
