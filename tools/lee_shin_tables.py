@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 FOLDER = pathlib.Path("configs/papers/lee_shin2013")
-MODEL = ["data", "optical_model", "illumination", "camera"]
+MODEL = ["data", "optical_model", "illumination", "camera", "clip"]
 # Rows of table 3: the figure whose data and transfer function they have, the paper's name and its average.
 ROWS = {
     "sphere": ("fig05", "sphere (figure 5)", 43.95),
@@ -35,7 +35,7 @@ def read(figure):
 
 def scene(row):
     config = read(ROWS[row][0])
-    part = {key: copy.deepcopy(config[key]) for key in MODEL}
+    part = {key: copy.deepcopy(config.get(key, [])) for key in MODEL}
     if row == "deep":  # layers as deep as 40 in a step, whose front and back differ in colour
         part["optical_model"]["opacity"] = [[v, x] for v, x in
                                             [[30, 0], [40, 1 - math.exp(-16)], [50, 0], [100, 0], [110, 1 - math.exp(-12)], [120, 0]]]
@@ -92,7 +92,7 @@ PAPER_SPEED = {"sphere": [300.65, 233.44, 277.43, 290.28, None], "head": [192.66
 
 
 def table4():
-    keys = ["panel", "data", "optical_model", "illumination", "estimator"]
+    keys = ["panel", "data", "optical_model", "illumination", "clip", "estimator"]
     values = {key: [] for key in keys}
     for row in SPEED_ROWS:
         part = scene(row)
@@ -101,7 +101,7 @@ def table4():
             if estimator["type"] != "direct":
                 estimator["table_size"] = 256 if row in SMALL else 4096
             values["panel"].append(f"{row}, {name}")
-            for key in ["data", "optical_model", "illumination"]:
+            for key in ["data", "optical_model", "illumination", "clip"]:
                 values[key].append(part[key])
             values["estimator"].append(estimator)
     lines = ["// Table 4: times from 360 directions, 800 x 800, with early termination and empty-space skipping as the paper has them. Written",
