@@ -1,5 +1,7 @@
 #include "framework/scene/check_case.h"
 
+#include <cstdio>
+
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
 #include "framework/scene/camera.h"
@@ -7,8 +9,28 @@
 #include "framework/scene/cells.h"
 #include "framework/scene/lighting.h"
 #include "framework/scene/scene.h"
+#include "framework/scene/system_memory.h"
 
 namespace dvrlab {
+namespace {
+
+/// A table that no run of this case could hold: said before any data is read.
+void check_tables(const ResolvedCase& c, const Registry& registry) {
+  std::vector<std::string> notes;
+  const Terms terms = model_medium(c, registry, 1.0, 0.0, 1.0, notes).terms();
+  const auto bytes = static_cast<double>(registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
+                                             .bytes_needed(c.estimator.parameters, terms));
+  const bool given = !c.limits.is_null("memory");
+  const double limit =
+      given ? c.limits.json("memory").get<double>() : 0.75 * static_cast<double>(system_memory().available);
+  if (bytes <= limit) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "its tables take %.1f MiB; %s %.1f MiB. Take a smaller table_size", bytes / 1048576,
+                given ? "limits.memory allows" : "75 % of what is available is", limit / 1048576);
+  throw InputError("estimator: " + c.estimator.type + ": " + text);
+}
+
+}  // namespace
 
 void check_case(const ResolvedCase& c, const Registry& registry, Problems& problems) {
   const auto part = [&](auto check) {
@@ -32,6 +54,7 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
     if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
   });
   part([&] { check_cells(c); });
+  part([&] { check_tables(c, registry); });
   if (c.illumination.size() > 1)
     problems.add("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
                  "); give one");

@@ -13,7 +13,7 @@ using nlohmann::json;
 struct Combination {
   std::string name;
   json estimator;
-  std::string data;  // engine, ch2, cranium
+  std::string data;  // engine, ch2, cranium, tooth
   bool rgb, opaque;
   std::string model = "hybrid";       // data_space, shaded, unshaded (absorption_emission)
   std::string light = "blinn_phong";  // surface_scalar, clip_normal (of a clipping plane), none
@@ -26,12 +26,13 @@ std::string file_of(const std::string& data) {
     const std::string file = "/usr/share/mricron/templates/ch2.nii.gz";
     return std::ifstream(file) ? file : "";
   }
-  return shared_data("volumes/cranium_ct.nrrd");
+  return shared_data(data == "tooth" ? "volumes/tooth.nhdr" : "volumes/cranium_ct.nrrd");
 }
 
 /// Values a + b u for u in [0, 1] over the interesting part of the data's range.
 json config_of(const Combination& c) {
-  const double lo = c.data == "cranium" ? -300 : 20, hi = c.data == "cranium" ? 1500 : 240;
+  const double lo = c.data == "cranium" ? -300 : c.data == "tooth" ? 200 : 20;
+  const double hi = c.data == "cranium" ? 1500 : c.data == "tooth" ? 1300 : 240;
   const auto at = [&](double u) { return lo + (hi - lo) * u; };
   json model = {{"type", "hybrid"},
                 {"length_unit", "voxel"},
@@ -216,6 +217,15 @@ INSTANTIATE_TEST_SUITE_P(
                     true,
                     "shaded",
                     "surface_scalar"},
+        Combination{
+            "power_series_tooth_65536", {{"type", "power_series"}, {"table_size", 65536}}, "tooth", false, true},
+        Combination{"preintegrated_tooth_4096",
+                    {{"type", "preintegrated"}, {"table_size", 4096}, {"depth_table_size", 65536}},
+                    "tooth",
+                    false,
+                    false,
+                    "unshaded",
+                    "none"},
         Combination{"engel_1d_engine", {{"type", "engel_1d"}}, "engine", false, false},
         Combination{"engel_1d_ch2_rgb", {{"type", "engel_1d"}, {"shading", "constant"}}, "ch2", true, false},
         Combination{"kye_1d_cranium_shaded", {{"type", "kye_1d"}}, "cranium", false, true, "shaded", "blinn_phong"},

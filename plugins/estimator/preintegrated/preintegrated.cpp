@@ -11,7 +11,7 @@ namespace dvrlab::preintegrated {
 namespace {
 
 constexpr Parameter parameters[] = {
-    {"table_size", ParameterType::integer, "", "1024", "[2,16384]", "Values along each side of the table.",
+    {"table_size", ParameterType::integer, "", "1024", "[2,65000]", "Values along each side of the table.",
      Affects::pixels, "", "16"},
     {"lookup", ParameterType::choice, "", "\"corrected\"", "corrected|plain",
      "corrected: depth and mean source from one-dimensional tables, times the table's "
@@ -61,7 +61,7 @@ class Preintegrated : public EstimatorPlugin {
     d.cuts_diracs = p.text("lookup") == "corrected";
     d.mean_bins = static_cast<int>(p.integer("depth_table_size"));
     d.cells = std::min(d.mean_bins, static_cast<int>(p.integer("table_size")) - 1);
-    d.means = 1;
+    d.means = p.text("lookup") == "corrected" ? 1 : 0;  // plain: only where a segment has another length
     declare_prediction(p, d);
     d.barycentre = p.text("shading") == "barycentre";
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;

@@ -1,4 +1,6 @@
 // Absorption plus emission (Max 1995; Yang et al. 2012, equation 1), unshaded or Levoy-shaded.
+#include <algorithm>
+
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/transfer_function.h"
 
@@ -13,6 +15,14 @@ const Parameter parameters[] = {
     {"extinction", nodes, "1/length", "null", "1|3",
      "Extinction nodes [value, mu] or [value, r, g, b] per length_unit; this or opacity.", Affects::pixels,
      R"({"optical_model":{"opacity":null,"extinction":[[0,0],[1,2]]}})", "[[0,0.5],[1,3]]"},
+    {"pulses.count", integer, "", "0", "[0,256]",
+     "A family of transfer functions in place of opacity and extinction: so many triangular pulses of opacity, evenly "
+     "over the range of the data; 0: none.",
+     Affects::pixels, R"({"optical_model":{"opacity":null,"pulses":{"count":3,"width":0.2,"height":0.5}}})", "5"},
+    {"pulses.width", number, "value", "1", "(0,inf)", "Width of a pulse at its foot.", Affects::pixels,
+     R"({"optical_model":{"opacity":null,"pulses":{"count":3,"width":0.2,"height":0.5}}})", "0.1"},
+    {"pulses.height", number, "per dl_std", "0.5", "[0,1]", "Opacity at the top of a pulse.", Affects::pixels,
+     R"({"optical_model":{"opacity":null,"pulses":{"count":3,"width":0.2,"height":0.5}}})", "0.9"},
     {"color", nodes, "", "[[0,1,1,1]]", "3", "Colour nodes [value, r, g, b].", Affects::pixels, "",
      "[[0,0.1,0.5,0.9],[1,0.9,0.2,0.1]]"},
     {"emission", nodes, "radiance/length", "null", "3",
@@ -48,13 +58,28 @@ class AbsorptionEmission : public OpticalModelPlugin {
   }
 
  private:
+  static Curve pulse_train(const ParameterSet& p, const ModelContext& context) {
+    const auto count = static_cast<double>(p.integer("pulses.count"));
+    const double height = p.number("pulses.height"), range = context.value_max - context.value_min;
+    // Neighbours meet at their feet at the widest.
+    const double half = std::min(p.number("pulses.width"), range / count) / 2;
+    std::vector<Node> nodes;
+    for (double k = 0; k < count; ++k) {
+      const double centre = context.value_min + (k + 0.5) / count * range;
+      nodes.insert(nodes.end(),
+                   {{centre - half, {0, 0, 0}}, {centre, {height, height, height}}, {centre + half, {0, 0, 0}}});
+    }
+    return Curve(std::move(nodes));
+  }
+
   // Per world unit.
   static Extinction extinction_curve(const ParameterSet& p, const ModelContext& context) {
-    if (p.is_null("opacity") == p.is_null("extinction"))
-      throw InputError(p.path() + ": give exactly one of opacity and extinction");
-    if (!p.is_null("opacity"))
-      return extinction_of(Curve(p.nodes("opacity")), nullptr, p.number("dl_std") * context.length_unit,
-                           p.path_of("opacity"), context);
+    const bool pulses = p.integer("pulses.count") > 0;
+    if (int(!p.is_null("opacity")) + int(!p.is_null("extinction")) + int(pulses) != 1)
+      throw InputError(p.path() + ": give exactly one of opacity, extinction and pulses");
+    if (pulses || !p.is_null("opacity"))
+      return extinction_of(pulses ? pulse_train(p, context) : Curve(p.nodes("opacity")), nullptr,
+                           p.number("dl_std") * context.length_unit, p.path_of(pulses ? "pulses" : "opacity"), context);
     Curve mu(p.nodes("extinction"));
     for (Node& n : mu.nodes()) {
       for (double& x : n.x) {
