@@ -156,7 +156,7 @@ def write_table1(dvrlab):
     lines += ["",
               "Why ours differ. PI_2D: n (n + 1) / 2 entries in each of two directions, and no others, 16 bytes each as in the paper; the sums that segments of",
               "another length need come on top. PI_1D and PI_PS(1): a sum is kept as two floats, with the mean in the bin: 48 bytes an entry where the paper",
-              "has 16, so that a slab of a few bins keeps its digits. PI_PS(3): moments on log2 n + 1 levels, because differences of sums of powers lose",
+              "has 16, so that a slab of a few bins keeps its digits. PI_PS(3): moments on log2 n levels, because differences of sums of powers lose",
               "what fp32 has and most of what fp64 has; 4 bins of 4096 would have an error of 1.3 of their colour in fp32 and 6e-9 in fp64, with levels",
               "both are at rounding.", ""]
     (FOLDER / "table1").mkdir(exist_ok=True)

@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 #include "framework/interfaces/parameter_set.h"
 
@@ -17,10 +17,10 @@ struct BinMedium {
   int groups = 0;  // groups of four numbers per bin, those of framework/kernel/medium.kernel
   double lo = 0, hi = 1;
   std::array<int, 3> extinction_at{};  // where tau_l of each channel stands in a bin's numbers
-  std::vector<double> mean;            // [bin][group][4], per world length or per stored value
+  std::unique_ptr<double[]> mean;      // [bin][group][4], per world length or per stored value
 
-  double* bin(int j) { return mean.data() + 4 * static_cast<std::ptrdiff_t>(j) * groups; }
-  const double* bin(int j) const { return mean.data() + 4 * static_cast<std::ptrdiff_t>(j) * groups; }
+  double* bin(int j) { return mean.get() + 4 * static_cast<std::ptrdiff_t>(j) * groups; }
+  const double* bin(int j) const { return mean.get() + 4 * static_cast<std::ptrdiff_t>(j) * groups; }
   /// tau_l of bin j per channel, 1 / world length.
   Vector3 extinction(int j) const {
     const double* b = bin(j);

@@ -1,5 +1,8 @@
 #include "framework/scene/bin_groups.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "framework/scene/bin_pieces.h"
 
 namespace dvrlab {
@@ -34,6 +37,7 @@ void add_barycentre(const Medium& medium, BinMedium& b) {
   const int group = b.groups - 1;
   const auto tau_s = [](int c) { return static_cast<std::size_t>(column(Term::tau_s, c)); };
   const double width = (b.hi - b.lo) / (b.count - 2);
+  for (int j = 0; j < b.count; ++j) std::fill_n(b.bin(j) + 4 * group, 4, 0.0);
   for_each_piece(medium, b.lo, b.hi, b.count - 2, [&](int bin, const Piece& p) {
     double* to = b.bin(bin + 1) + 4 * group;
     const double share = (p.v1 - p.v0) / width, centre = ((p.v0 + p.v1) / 2 - b.lo) / width;
@@ -52,6 +56,31 @@ void add_barycentre(const Medium& medium, BinMedium& b) {
   }
 }
 
+typedef double four __attribute__((vector_size(32)));
+
+/// All bins inside the range. By the widest instructions of the machine; the numbers are the same.
+__attribute__((target_clones("avx2", "default"))) void fill(const Medium& medium, const double* polynomials, int groups,
+                                                            BinMedium& r) {
+  const int bins = r.count - 2;
+  const double inverse_width = bins / (r.hi - r.lo);
+  for_each_piece(
+      medium, r.lo, r.hi, bins, [&](int bin, const Piece& p) __attribute__((always_inline)) {
+        const double share = (p.v1 - p.v0) * inverse_width, t = share * (p.t0 + p.t1) / 2,
+                     tt = share * (p.t0 * p.t0 + p.t0 * p.t1 + p.t1 * p.t1) / 3;
+        const double* from = polynomials + 12 * static_cast<std::ptrdiff_t>(p.interval) * groups;
+        double* to = r.bin(bin + 1);
+        for (int g = 0; g < groups; ++g, from += 4, to += 4) {
+          four c0, c1, c2, sum{};
+          __builtin_memcpy(&c0, from, sizeof c0);
+          __builtin_memcpy(&c1, from + 4 * groups, sizeof c1);
+          __builtin_memcpy(&c2, from + 8 * groups, sizeof c2);
+          if (!p.first) __builtin_memcpy(&sum, to, sizeof sum);
+          sum += c0 * share + c1 * t + c2 * tt;
+          __builtin_memcpy(to, &sum, sizeof sum);
+        }
+      });
+}
+
 }  // namespace
 
 BinMedium bin_groups(const Medium& medium, const MediumLayout& layout, double lo, double hi, int bins,
@@ -62,18 +91,11 @@ BinMedium bin_groups(const Medium& medium, const MediumLayout& layout, double lo
   r.lo = lo;
   r.hi = hi;
   for (int c = 0; c < 3; ++c) r.extinction_at[static_cast<std::size_t>(c)] = layout.extinction_at(c);
-  r.mean.assign(static_cast<std::size_t>(4 * r.groups) * static_cast<std::size_t>(r.count), 0.0);
-  const int numbers = 4 * layout.count();
+  r.mean = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(4 * r.groups) *
+                                                    static_cast<std::size_t>(r.count));
+  if (medium.interval.empty()) std::fill_n(r.mean.get(), 4 * r.groups * r.count, 0.0);
   const std::vector<double> polynomials = group_polynomials(medium, layout);
-  const double inverse_width = bins / (hi - lo);
-  for_each_piece(medium, lo, hi, bins, [&](int bin, const Piece& p) {
-    const double* c0 = polynomials.data() + 3 * p.interval * static_cast<std::size_t>(numbers);
-    const double *c1 = c0 + numbers, *c2 = c1 + numbers;
-    const double share = (p.v1 - p.v0) * inverse_width, t = share * (p.t0 + p.t1) / 2,
-                 tt = share * (p.t0 * p.t0 + p.t0 * p.t1 + p.t1 * p.t1) / 3;
-    double* to = r.bin(bin + 1);
-    for (int k = 0; k < numbers; ++k) to[k] += share * c0[k] + t * c1[k] + tt * c2[k];
-  });
+  fill(medium, polynomials.data(), layout.count(), r);
   layout.write(medium.at(lo, true), r.bin(0));
   layout.write(medium.at(hi), r.bin(r.count - 1));
   if (barycentre) add_barycentre(medium, r);

@@ -14,6 +14,7 @@ struct Piece {
   std::size_t interval;  // of the medium
   double t0, t1;         // the polynomials' coordinate at both ends
   double v0, v1;         // values
+  bool first;            // of its bin
 };
 
 /// Calls visit(bin, piece) for every piece of every bin of [lo, hi], both in ascending order.
@@ -28,7 +29,7 @@ void for_each_piece(const Medium& medium, double lo, double hi, int bins, Visit 
     const double a = lo + width * bin, b = bin + 1 == bins ? hi : lo + width * (bin + 1);
     while (k + 1 < all.size() && all[k].v1 <= a) scale = 1.0 / (all[k + 1].v1 - all[k + 1].v0), ++k;
     if (a >= all[k].v0 && b <= all[k].v1) {  // most bins are one piece
-      visit(bin, Piece{k, (a - all[k].v0) * scale, (b - all[k].v0) * scale, a, b});
+      visit(bin, Piece{k, (a - all[k].v0) * scale, (b - all[k].v0) * scale, a, b, true});
       continue;
     }
     double v = a;
@@ -39,10 +40,10 @@ void for_each_piece(const Medium& medium, double lo, double hi, int bins, Visit 
       // Outside the first and last border the columns are constant: a piece that crosses the border is two.
       for (double border : {m.v0, m.v1}) {
         if (!(border > v && border < end)) continue;
-        visit(bin, Piece{i, t(v), t(border), v, border});
+        visit(bin, Piece{i, t(v), t(border), v, border, v == a});
         v = border;
       }
-      if (end > v) visit(bin, Piece{i, t(v), t(end), v, end});
+      if (end > v) visit(bin, Piece{i, t(v), t(end), v, end, v == a});
       v = end;
       if (i + 1 == all.size()) break;
     }

@@ -37,59 +37,88 @@ constexpr Gauss gauss[] = {{1, {0.5}, {1}},
                             {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629},
                             {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}}};
 
-/// One half of a block: `length` bins from `first` on in steps of `way`, away from the middle.
-template <class T, int N, int P>
-DVRLAB_INLINE void fill_half(const BinMedium& bins, int first, int way, int length, double unit, four* sum, T* level) {
+/// What a bin adds to the moments of one group: G is its mean, y the depths and place the distances of the points.
+template <int N, int P, int points>
+DVRLAB_INLINE void add_bin(four* sum, const four& G, const four* y, const double* place) {
+  constexpr const Gauss& rule = gauss[points - 1];
+  four weighted[points];
+#pragma GCC unroll 4
+  for (int n = 0; n < points; ++n) weighted[n] = G * rule.weight[n];
+#pragma GCC unroll 4
+  for (int i = 0; i < N; ++i) {
+    four term[points];
+#pragma GCC unroll 4
+    for (int n = 0; n < points; ++n) term[n] = weighted[n];
+#pragma GCC unroll 4
+    for (int l = 0; l < P; ++l) {
+      four all = term[0];
+#pragma GCC unroll 4
+      for (int n = 1; n < points; ++n) all += term[n];
+      sum[i * P + l] += all;
+#pragma GCC unroll 4
+      for (int n = 0; n < points && l + 1 < P; ++n) term[n] *= place[n];
+    }
+#pragma GCC unroll 4
+    for (int n = 0; n < points && i + 1 < N; ++n) weighted[n] *= y[n];
+  }
+}
+
+/// The same without places: the means of a power of a linear depth about its middle a, with s = tau^2 / 12.
+template <int N>
+DVRLAB_INLINE void add_bin(four* sum, const four& G, const four& depth, const four& tau) {
+  const four a = depth + tau * 0.5, Ga = G * a, square = a * a, s = tau * tau * (1.0 / 12);
+  sum[0] += G;
+  if (N > 1) sum[1] += Ga;
+  if (N > 2) sum[2] += G * (square + s);
+  if (N > 3) sum[3] += Ga * (square + s * 3.0);
+}
+
+/// One half of a block: `length` bins from `first` on in steps of `way`, away from the middle. `grey`: one extinction.
+/// Sums stay in registers: the groups are taken one after the other.
+template <class T, int N, int P, bool grey>
+DVRLAB_INLINE void fill_half(const BinMedium& bins, int first, int way, int length, double unit, T* level) {
   constexpr int moments = N * P, points = (N + P) / 2;
   constexpr const Gauss& rule = gauss[points - 1];
-  const int groups = bins.groups;
-  for (int k = 0; k < groups * moments; ++k) sum[k] = four{};
-  four depth{};
   const auto [r, g, b] = bins.extinction_at;
-  for (int s = 0; s < length; ++s) {
-    const int j = first + way * s;
-    T* to = level + 4 * static_cast<std::ptrdiff_t>(j) * groups * moments;
-    for (int k = 0; k < groups * moments; ++k) store(to + 4 * k, sum[k]);
-    const double* mean = bins.bin(j);
-    const four tau = {mean[r], mean[g], mean[b], mean[r]};
-    four y[points], weighted[points];
-    double place[points];
-    for (int n = 0; n < points; ++n) {
-      y[n] = depth + tau * rule.x[n];
-      place[n] = (s + rule.x[n]) * unit;
-    }
-    depth += tau;
-    for (int q = 0; q < groups; ++q) {
-      four G;
+  for (int q = 0; q < bins.groups; ++q) {
+    four sum[moments] = {}, depth{};
+    for (int s = 0; s < length; ++s) {
+      const int j = first + way * s;
+      T* to = level + 4 * (static_cast<std::ptrdiff_t>(j) * bins.groups + q) * moments;
+#pragma GCC unroll 16
+      for (int k = 0; k < moments; ++k) store(to + 4 * k, sum[k]);
+      const double* mean = bins.bin(j);
+      const four tau = grey ? four{} + mean[r] : four{mean[r], mean[g], mean[b], mean[r]};
+      four G, y[points];
       load(G, mean + 4 * q);
-      for (int n = 0; n < points; ++n) weighted[n] = G * rule.weight[n];
-      for (int i = 0; i < N; ++i) {
-        for (int n = 0; n < points; ++n) {
-          four term = weighted[n];
-          for (int l = 0; l < P; ++l) {
-            sum[(q * N + i) * P + l] += term;
-            if (l + 1 < P) term *= place[n];
-          }
-          if (i + 1 < N) weighted[n] *= y[n];
-        }
+      if constexpr (P == 1) {
+        add_bin<N>(sum, G, depth, tau);
+        depth += tau;
+        continue;
       }
+      double place[points];
+#pragma GCC unroll 4
+      for (int n = 0; n < points; ++n) {
+        y[n] = depth + tau * rule.x[n];
+        place[n] = (s + rule.x[n]) * unit;
+      }
+      depth += tau;
+      add_bin<N, P, points>(sum, G, y, place);
     }
   }
 }
 
-template <class T, int N, int P>
+template <class T, int N, int P, bool grey>
 DVRLAB_WIDE void fill(const BinMedium& bins, int levels, T* table) {
   const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(bins.count) * bins.groups * N * P;
-  constexpr int most_groups = 8;
-  four sum[most_groups * N * P];
-  for (int k = 0; k < levels; ++k) {
-    T* level = table + k * row;
+  for (int k = 1; k <= levels; ++k) {
+    T* level = table + (k - 1) * row;
     const int half = 1 << k;
     for (int middle = half; middle - half < bins.count; middle += 2 * half) {
       // Below the middle from the highest bin that there is; entries beside missing bins are never asked for.
       const int top = std::min(middle, bins.count);
-      fill_half<T, N, P>(bins, top - 1, -1, top - (middle - half), 1.0 / half, sum, level);
-      fill_half<T, N, P>(bins, middle, 1, std::clamp(bins.count - middle, 0, half), 1.0 / half, sum, level);
+      fill_half<T, N, P, grey>(bins, top - 1, -1, top - (middle - half), 1.0 / half, level);
+      fill_half<T, N, P, grey>(bins, middle, 1, std::clamp(bins.count - middle, 0, half), 1.0 / half, level);
     }
   }
 }
@@ -98,12 +127,20 @@ template <class T>
 void fill_any(const BinMedium& bins, int levels, int orders, int places, T* table) {
   const auto with_places = [&](auto order) {
     constexpr int N = decltype(order)::value;
+    const bool grey = bins.extinction_at[1] == bins.extinction_at[0];
+    const auto with = [&](auto place) {
+      constexpr int P = decltype(place)::value;
+      if (grey)
+        fill<T, N, P, true>(bins, levels, table);
+      else
+        fill<T, N, P, false>(bins, levels, table);
+    };
     if (places == 1)
-      fill<T, N, 1>(bins, levels, table);
+      with(std::integral_constant<int, 1>());
     else if (places == 2)
-      fill<T, N, 2>(bins, levels, table);
+      with(std::integral_constant<int, 2>());
     else
-      fill<T, N, 4>(bins, levels, table);
+      with(std::integral_constant<int, 4>());
   };
   switch (orders) {
     case 1:
@@ -121,7 +158,7 @@ void fill_any(const BinMedium& bins, int levels, int orders, int places, T* tabl
 
 }  // namespace
 
-int levels_of(int bins) { return std::bit_width(static_cast<unsigned>(bins + 1)); }
+int levels_of(int bins) { return std::bit_width(static_cast<unsigned>(bins + 1)) - 1; }
 
 MomentTable moment_table(const BinMedium& bins, int orders, int places, bool fp64) {
   MomentTable t;

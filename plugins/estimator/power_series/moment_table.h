@@ -6,6 +6,7 @@
 // 2^k bins. Two bins j0 < j1 whose highest differing bit is k lie in the two halves of one block of level k, so the
 // entries of both hold what lies between them. Everything is a sum of terms of one sign: no digits are lost, in float
 // either.
+// Level 0 holds nothing: the table begins with level 1.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +18,13 @@ namespace dvrlab::power_series {
 
 struct MomentTable {
   int levels = 0;
-  std::uint64_t entries = 0;  // of four numbers: [level][bin][group][i][l]
+  std::uint64_t entries = 0;  // of four numbers: [level - 1][bin][group][i][l]
   /// One of them, as asked for.
   std::shared_ptr<float[]> rounded;
   std::shared_ptr<double[]> values;
 };
 
+/// The levels 1 .. of a table of so many bins, the outer ones not counted; at least one.
 int levels_of(int bins);
 
 /// i = 0 .. orders - 1, l = 0 .. places - 1; orders 1 .. 4, places 1, 2 or 4.

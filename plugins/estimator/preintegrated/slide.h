@@ -137,6 +137,8 @@ struct Slide {
   DVR_INLINE void step(State& s, intptr_t row, vd* value) const {
     const intptr_t back = row + d.m0;
     const int q = v.side.dirac_cell[row];
+    // What stays without light is dark to the last bit: no rounding of bright cells that left.
+    const vm lit = all(v.side.active[row + 1] + 0.5) < load(v.side.active + back);
     const bool near = v.side.dirac_near[back] != 0;
     vd t[3], R[3], phi[3], phi_back[3], psi[3], psi_back[3];
     for (int e = 0; e < extinctions(); ++e) {
@@ -162,7 +164,7 @@ struct Slide {
       if (__builtin_expect(near, 0)) out = out + dirac_diagonal(v.scratch.dirac_total, c, back);
       // What is left cannot be negative: the clamp keeps the rounding error of a bright cell that left out of a dark
       // rest.
-      const vd rest = at_least(s.C[c] - R[e] * out, 0.0);
+      const vd rest = select(lit, at_least(s.C[c] - R[e] * out, 0.0), all(0.0));
       s.C[c] = in + t[e] * rest;
       value[1 + c] = s.C[c];
       if (!weighted(c)) continue;
@@ -170,7 +172,7 @@ struct Slide {
       if (__builtin_expect(q >= 0, 0)) moment = moment + load(dirac(v.scratch.dirac_back, q, c));
       if (__builtin_expect(near, 0)) moment_back = moment_back + dirac_diagonal(v.scratch.dirac_back, c, back);
       const vd last = d.m - all(1.0);  // the front of the back cell, in cells
-      const vd rest_moment = at_least(s.D[c] - R[e] * (last * out + moment_back), 0.0);
+      const vd rest_moment = select(lit, at_least(s.D[c] - R[e] * (last * out + moment_back), 0.0), all(0.0));
       if (cubic(c)) {
         const intptr_t i = v.front(e, row);
         vd second = G * load(v.scratch.psi2 + i), third = G * load(v.scratch.psi3 + i);
@@ -185,11 +187,11 @@ struct Slide {
           third_back = third_back + dirac_diagonal(v.scratch.dirac_third, c, back);
         }
         const vd rest_second =
-            at_least(s.D2[c] - R[e] * (last * (last * out + all(2.0) * moment_back) + second_back), 0.0);
-        const vd rest_third = at_least(
-            s.D3[c] -
-                R[e] * (last * (last * (last * out + all(3.0) * moment_back) + all(3.0) * second_back) + third_back),
-            0.0);
+            select(lit, at_least(s.D2[c] - R[e] * (last * (last * out + all(2.0) * moment_back) + second_back), 0.0),
+                   all(0.0));
+        const vd back_third =
+            last * (last * (last * out + all(3.0) * moment_back) + all(3.0) * second_back) + third_back;
+        const vd rest_third = select(lit, at_least(s.D3[c] - R[e] * back_third, 0.0), all(0.0));
         s.D3[c] = third + t[e] * (rest_third + all(3.0) * (rest_second + rest_moment) + rest);
         s.D2[c] = second + t[e] * (rest_second + all(2.0) * rest_moment + rest);
         value[1 + 2 * columns() + c] = s.D2[c] * d.inverse * d.inverse;

@@ -130,6 +130,15 @@ void TableInputs::add_side(int direction, const Cells& cells, const TableRequest
       side.surface_sum[c] = prefix(ordered(surface));
     }
   }
+  double* active = padded(count + 1);
+  for (std::size_t k = 0; k < count + pad; ++k) {
+    bool lit = false;
+    for (int c = 0; c < job_.columns && k < count; ++c)
+      lit = lit || side.length_source[c][k] != 0 || side.surface_source[c][k] != 0;
+    for (const CellDirac& x : cells.dirac) lit = lit || std::size_t(x.cell) == (mirrored ? count - 1 - k : k);
+    active[k + 1] = active[k] + (lit ? 1 : 0);
+  }
+  side.active = active;
   dirac_cell_[d].assign(count + 2 * pad, -1);
   dirac_near_[d].assign(count + 2 * pad, 0);
   for (std::size_t q = 0; q < dirac_at_.size(); ++q) {

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-#define DVR_TABLE_ABI 2
+#define DVR_TABLE_ABI 3
 #define DVR_TABLE_ENTRY "dvrlab_table_module"
 /* Cell arrays may be read this many elements before their first and behind their last element: zeros there, prefix
  * sums go on with their last value. */
@@ -31,10 +31,11 @@ typedef struct dvr_table_side {
   dvr_table_prefix length_depth[3], surface_depth[3];   /* of tau_l and of tau_s with the Diracs, per extinction */
   dvr_table_prefix length_sum[DVR_TABLE_MOST_COLUMNS];  /* of length_source: ratio tables only */
   dvr_table_prefix
-      surface_sum[DVR_TABLE_MOST_COLUMNS];         /* of surface_source with the Diracs' mu_i c_i: ratio tables only */
-  const int32_t* dirac_cell;                       /* per cell: its index in `dirac_first`, -1 without a Dirac */
-  const uint8_t* dirac_near;                       /* per cell k: a Dirac in the cells k .. k + DVR_TABLE_PAD - 1 */
-  const double* at_extinction[3];                  /* tau_l at the n grid values */
+      surface_sum[DVR_TABLE_MOST_COLUMNS]; /* of surface_source with the Diracs' mu_i c_i: ratio tables only */
+  const double* active;                    /* n entries: how many of the cells 0 .. k-1 send light in any column */
+  const int32_t* dirac_cell;               /* per cell: its index in `dirac_first`, -1 without a Dirac */
+  const uint8_t* dirac_near;               /* per cell k: a Dirac in the cells k .. k + DVR_TABLE_PAD - 1 */
+  const double* at_extinction[3];          /* tau_l at the n grid values */
   const double* at_source[DVR_TABLE_MOST_COLUMNS]; /* the column's length terms at the n grid values */
   float* out[DVR_TABLE_MOST_CHANNELS / 4];         /* per group of 4 channels, 64-byte aligned */
 } dvr_table_side;
