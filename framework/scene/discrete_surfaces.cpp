@@ -99,18 +99,23 @@ void add_outside(std::vector<OpaqueRange>& kept, const OpaqueRange& range) {
   kept.insert(kept.end(), parts.begin(), parts.end());
 }
 
-// Prediction (Lee and Shin 2013, section 4.2) over the bins of the medium's table, two numbers per bin. Up: the first
-// range that reaches into the bin or lies above it; down: the last one that begins in it or below. One bin of margin
-// covers rounding.
-std::vector<int> prediction_of(const std::vector<OpaqueRange>& ranges, const MediumTableOptions& o) {
-  std::vector<int> next;
+// Prediction (Lee and Shin 2013, section 4.2) over the bins of the medium's table: the lower end of the first range
+// that reaches into the bin or lies above it, the upper end of the last one that begins in it or below, and both their
+// numbers. One bin of margin covers rounding.
+std::vector<double> prediction_of(const std::vector<OpaqueRange>& ranges, const MediumTableOptions& o) {
+  constexpr double nowhere = 3e38;
+  std::vector<double> next;
   const int last = static_cast<int>(ranges.size()) - 1;
   const auto edge = [&](int b) { return o.lo + (o.hi - o.lo) * b / (o.entries - 1); };
   int up = 0, down = 0;
   for (int b = 0; b < o.entries && last >= 0; ++b) {  // the coordinate of the last entry is a bin of its own
-    while (b > 0 && up < last && ranges[static_cast<std::size_t>(up)].v1 < edge(b - 1)) ++up;
-    while (down < last && (b + 2 > o.entries || ranges[static_cast<std::size_t>(down) + 1].v0 <= edge(b + 2))) ++down;
-    next.insert(next.end(), {up, down});
+    // The outermost bins hold what lies beyond them, too.
+    const double below = b > 0 ? edge(b - 1) : -nowhere, above = b + 2 > o.entries ? nowhere : edge(b + 2);
+    while (up < last && ranges[static_cast<std::size_t>(up)].v1 < below) ++up;
+    while (down < last && ranges[static_cast<std::size_t>(down) + 1].v0 <= above) ++down;
+    const OpaqueRange &first = ranges[static_cast<std::size_t>(up)], &second = ranges[static_cast<std::size_t>(down)];
+    next.insert(next.end(), {first.v1 < below ? nowhere : first.v0, second.v0 > above ? -nowhere : second.v1,
+                             static_cast<double>(up), static_cast<double>(down)});
   }
   return next;
 }
@@ -159,10 +164,7 @@ void add_discrete_surfaces(const Medium& medium, const MediumTableOptions& optio
   const std::vector<double> ranges = opaque_rows(opaque, options.fold_shaded);
   rows.insert(rows.end(), ranges.begin(), ranges.end());
   unit.buffers.push_back(vec4_buffer("medium_discrete", std::move(rows)));
-  std::vector<int> next = prediction_of(opaque, options);
-  const std::uint64_t count = next.size();
-  next.resize(std::max<std::size_t>(next.size(), 1));
-  unit.buffers.push_back(make_buffer("medium_opaque_next", Element::i32, std::move(next), count));
+  unit.buffers.push_back(vec4_buffer("medium_opaque_next", prediction_of(opaque, options)));
 }
 
 Medium continued_into_opaque(const Medium& medium) {
