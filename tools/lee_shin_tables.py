@@ -36,11 +36,11 @@ def read(figure):
 def scene(row):
     config = read(ROWS[row][0])
     part = {key: copy.deepcopy(config.get(key, [])) for key in MODEL}
-    if row == "deep":  # layers as deep as 40 in a step, whose front and back differ in colour
-        part["optical_model"]["opacity"] = [[v, x] for v, x in
-                                            [[30, 0], [40, 1 - math.exp(-16)], [50, 0], [100, 0], [110, 1 - math.exp(-12)], [120, 0]]]
-        part["optical_model"]["color"] = [[0, 0.1, 0.2, 1], [40, 0.1, 0.2, 1], [40, 1, 0.8, 0.1], [80, 1, 0.8, 0.1],
-                                          [110, 0.9, 0.1, 0.1], [110, 0.1, 0.9, 0.3], [255, 0.1, 0.9, 0.3]]
+    if row == "deep":  # layers that lie in one step, up to 6 deep, whose front and back differ in colour
+        top = 1 - math.exp(-16)
+        part["optical_model"]["opacity"] = [[27, 0], [30, top], [33, 0], [97, 0], [100, top], [103, 0]]
+        part["optical_model"]["color"] = [[0, 0.1, 0.2, 1], [30, 0.1, 0.2, 1], [30, 1, 0.8, 0.1], [70, 1, 0.8, 0.1],
+                                          [70, 0.9, 0.1, 0.1], [100, 0.9, 0.1, 0.1], [100, 0.1, 0.9, 0.3], [255, 0.1, 0.9, 0.3]]
     return part
 
 
@@ -62,7 +62,7 @@ def table3():
         values["estimator"].append({"type": "power_series", "table_size": 256 if row in SMALL else 1024 if row == "nonlinear" else 4096,
                                     "shading": "nonlinear" if row == "nonlinear" else "constant"})
     lines = ["// Table 3: PSNR of the power series of order 1 against PI_2D, 800 x 800. The scenes of the figures, and one that must fail: layers",
-             "// as deep as 12 to 16 in a step whose colour changes in their middle. Written by tools/lee_shin_tables.py.", "{",
+             "// that lie in one step, up to 6 deep, and change their colour in the middle. Written by tools/lee_shin_tables.py.", "{",
              '  "sampling": { "type": "uniform", "step": 1, "unit": "voxel", "termination": 0.001 },',
              '  "image": { "size": [800, 800] },', '  "axes": {', '    "permutation": {', '      "zip": [{']
     lines += rows_text(list(values), values)
@@ -120,10 +120,6 @@ def studies(dvrlab, name, *arguments):
     return json.loads(run.stdout)
 
 
-def choice(study, key):
-    return re.search(rf"(?:^|,){re.escape(key)}=([^,]*)", study["id"]).group(1)
-
-
 def size_text(n):
     return f"{n / 1024:.4g} KiB" if n < 1 << 20 else f"{n / (1 << 20):.4g} MiB"
 
@@ -132,9 +128,8 @@ def by_method(list_of):
     """{method: {entries: study}}"""
     found = {}
     for s in list_of:
-        panel = choice(s, "panel")
-        method, entries = panel.rsplit(" ", 1)
-        found.setdefault(method, {})[int(entries)] = s
+        method, entries = s["choices"]["panel"].rsplit("_", 1)  # labels have no spaces
+        found.setdefault(re.sub(r"PS_(\d)_", r"PS(\1)", method).replace(",_", ", "), {})[int(entries)] = s
     return found
 
 
@@ -145,8 +140,8 @@ def write_table1(dvrlab):
     found = by_method(studies(dvrlab, "table1", "--points", "16"))
     lines = ["# Table 1: sizes of the tables", "",
              "Unshaded RGBA with grey extinction, from `./dev papers lee_shin2013/table1` (`dvrlab table`); the paper's beside ours. The paper's sizes are",
-             "without its prediction table P, ours too: it belongs to the framework and has two whole numbers per entry of the transfer function",
-             "(2 KiB and 32 KiB at 256 and 4096 entries).", "",
+             "without its prediction table P, ours too: it belongs to the framework and has four numbers per entry of the transfer function",
+             "(4 KiB and 64 KiB at 256 and 4096 entries).", "",
              "| method | 256 entries, paper | ours | 4096 entries, paper | ours |", "|---|---|---|---|---|"]
     for method, sizes in found.items():
         paper = PAPER_SIZE.get(method)
@@ -204,7 +199,8 @@ def write_table3(results):
         row = found.get(panel, {})
         cells = [number(row, f"{key} against PI_2D") for key in ["psnr.r", "psnr.g", "psnr.b", "psnr.mean_db", "psnr"]]
         lines.append(f"| {panel} | " + " | ".join(cells) + f" | {name} {paper if paper else ''} | {number(row, 'psnr against exact')} |")
-    lines += ["", "`deep` is the documented failure (docs/math G.4): as soon as a segment is deeper than about 2 and its colour changes inside, order 1 mixes the colours of the",
+    lines += ["", "The last column of `nonlinear` compares it with an exact integral under constant light, so it holds the difference of the two kinds of light.", "",
+              "`deep` is the documented failure (docs/math G.4): as soon as a segment is deeper than about 2 and its colour changes inside, order 1 mixes the colours of the",
               "layer's front and back. Higher orders do not help there; short segments do, and `exact` and `preintegrated` have the order right.", ""]
     (FOLDER / "table3").mkdir(exist_ok=True)
     (FOLDER / "table3/README.md").write_text("\n".join(lines))
@@ -221,7 +217,7 @@ def write_table4(results):
         base = None
         table = []
         for k, method in enumerate(METHODS):
-            mine = [r for r in rows if r["panel"] == f"{scene_name}, {method}" and r.get("march_s")]
+            mine = [r for r in rows if r["panel"] == f"{scene_name}, {method}".replace(" ", "_") and r.get("march_s")]
             if not mine:
                 continue
             t = [1e3 * float(r["march_s"]) for r in mine]

@@ -42,7 +42,9 @@ std::string grid_csv(const TableStudy& s) {
   return text.str();
 }
 
-nlohmann::ordered_json json_of(const std::string& id, const TableStudy& s) {
+nlohmann::ordered_json json_of(const PlannedCase& c, const TableStudy& s) {
+  nlohmann::ordered_json choices = nlohmann::ordered_json::object();
+  for (const AxisChoice& choice : c.choices) choices[choice.key] = choice.label;
   nlohmann::ordered_json classes = nlohmann::ordered_json::array();
   for (const DepthClass& d : s.classes)
     classes.push_back({{"depth_from", d.from},
@@ -50,8 +52,14 @@ nlohmann::ordered_json json_of(const std::string& id, const TableStudy& s) {
                        {"pairs", d.pairs},
                        {"worst", d.worst},
                        {"rms", d.rms}});
-  return {{"id", id},         {"bytes", s.bytes}, {"build_s", s.build_seconds}, {"segment_length", s.length},
-          {"worst", s.worst}, {"rms", s.rms},     {"by_depth", classes}};
+  return {{"id", c.id},
+          {"choices", choices},
+          {"bytes", s.bytes},
+          {"build_s", s.build_seconds},
+          {"segment_length", s.length},
+          {"worst", s.worst},
+          {"rms", s.rms},
+          {"by_depth", classes}};
 }
 
 }  // namespace
@@ -76,7 +84,7 @@ int table_verb(const Options& o) {
       rows.push_back({c.id, size_text(s.bytes), number_text(1e3 * s.build_seconds, 3) + " ms", number_text(s.worst, 3),
                       number_text(s.rms, 3)});
       for (const DepthClass& d : s.classes) rows.back().push_back(d.pairs > 0 ? number_text(d.worst, 2) : "-");
-      list.push_back(json_of(c.id, s));
+      list.push_back(json_of(c, s));
       const std::string to = folder + "/" + c.id;
       std::filesystem::create_directories(to);
       write_png(to + "/error.png", error_picture(s), false);
