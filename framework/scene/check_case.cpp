@@ -15,11 +15,8 @@ namespace dvrlab {
 namespace {
 
 /// A table that no run of this case could hold: said before any data is read.
-void check_tables(const ResolvedCase& c, const Registry& registry) {
-  std::vector<std::string> notes;
-  const Terms terms = model_medium(c, registry, 1.0, 0.0, 1.0, notes).terms();
-  const auto bytes = static_cast<double>(registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
-                                             .bytes_needed(c.estimator.parameters, terms));
+void check_tables(const ResolvedCase& c, const EstimatorPlugin& estimator, const Terms& terms) {
+  const auto bytes = static_cast<double>(estimator.bytes_needed(c.estimator.parameters, terms));
   const bool given = !c.limits.is_null("memory");
   const double limit =
       given ? c.limits.json("memory").get<double>() : 0.75 * static_cast<double>(system_memory().available);
@@ -44,9 +41,9 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
   part([&] {
     std::vector<std::string> notes;
     const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
-    refuse_impossible(c, medium,
-                      registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type")
-                          .declaration(c.estimator.parameters));
+    const auto& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
+    refuse_impossible(c, medium, estimator.declaration(c.estimator.parameters));
+    check_tables(c, estimator, medium.terms());
   });
   part([&] {
     const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")
@@ -54,7 +51,6 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
     if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
   });
   part([&] { check_cells(c); });
-  part([&] { check_tables(c, registry); });
   if (c.illumination.size() > 1)
     problems.add("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
                  "); give one");

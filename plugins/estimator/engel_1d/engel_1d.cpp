@@ -1,6 +1,4 @@
 // One-dimensional pre-integration of Engel 2003: cumulative tables of a medium whose extinction is limited.
-#include <algorithm>
-
 #include "framework/interfaces/estimator.h"
 #include "framework/interfaces/segment_keys.h"
 

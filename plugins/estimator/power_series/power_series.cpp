@@ -1,8 +1,6 @@
 // Pre-integration by a power series: one-dimensional tables of moments.
-#include <algorithm>
 #include <string>
 
-#include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
 #include "framework/interfaces/segment_keys.h"
 #include "framework/scene/buffers.h"
@@ -26,6 +24,11 @@ constexpr Parameter parameters[] = {
      Affects::pixels,
      R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0.3,0],[0.8,0.9]]},"estimator":{"order":2},"sampling":{"step":4}})",
      "\"none\""},
+    {"safe_depth", ParameterType::number, "", "0", "[0,inf)",
+     "Optical depth up to which the series of an order above 1 is taken as it is; 0: that of the order, 0.5, 1, 1.",
+     Affects::pixels,
+     R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0.3,0],[0.8,0.9]]},"estimator":{"order":2},"sampling":{"step":4}})",
+     "0.1"},
     {"most_parts", ParameterType::integer, "", "16", "[1,256]", "With fallback split: parts of a segment at the most.",
      Affects::pixels,
      R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0.3,0],[0.8,0.9]]},"estimator":{"order":2},"sampling":{"step":4}})",
@@ -41,7 +44,7 @@ constexpr Parameter parameters[] = {
     opaque_prediction_key,
     max_extinction_key};
 
-constexpr double safe_depth[] = {0, 0, 0.5, 1, 1};  // docs/math B.6
+constexpr double safe_depths[] = {0, 1e30, 0.5, 1, 1};  // of the orders; docs/math B.6
 
 int order_of(const ParameterSet& p) { return static_cast<int>(p.integer("order")); }
 
@@ -63,8 +66,10 @@ class PowerSeries : public EstimatorPlugin {
     d.means = order_of(p) == 1 && places_of(p, true) == 1 ? 1 : 0;
     declare_prediction(p, d);
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
-    // The depth of surfaces is measured in |dv|, that of particles in length: the series would need both in one.
-    if (order_of(p) > 1) d.handles &= ~(Terms::bit(Term::tau_s) | Terms::bit(Term::S_s) | Terms::bit(Term::W_s));
+    // The depth of surfaces is measured in |dv|, that of particles in length: the series would need both in one. What
+    // is published knows no surfaces.
+    if (order_of(p) > 1 || p.text("variant") == "published")
+      d.handles &= ~(Terms::bit(Term::tau_s) | Terms::bit(Term::S_s) | Terms::bit(Term::W_s));
     return d;
   }
 
@@ -84,7 +89,7 @@ class PowerSeries : public EstimatorPlugin {
 
   std::uint64_t bytes_needed(const ParameterSet& p, const Terms& terms) const override {
     const int bins = static_cast<int>(p.integer("table_size"));
-    const int groups = terms.surfaces() || terms.has(Term::S_l) ? 7 : 2, moments = order_of(p) * places_of(p, true);
+    const int groups = terms.surfaces() || terms.has(Term::S_l) ? 8 : 2, moments = order_of(p) * places_of(p, true);
     if (moments == 1) return 0;
     return static_cast<std::uint64_t>(levels_of(bins)) * (static_cast<std::uint64_t>(bins) + 2) *
            static_cast<std::uint64_t>(groups * moments) * 4 * sizeof(double);
@@ -101,7 +106,8 @@ class PowerSeries : public EstimatorPlugin {
     integer("places", places);
     integer("bins", context.bins->count);
     integer("points", points);
-    unit.uniforms.push_back(Uniform::real("power_series_safe_depth", order > 1 ? safe_depth[order] : 1e30));
+    const double asked = order > 1 ? p.number("safe_depth") : 0;
+    unit.uniforms.push_back(Uniform::real("power_series_deepest", asked > 0 ? asked : safe_depths[order]));
     unit.buffers.push_back(vec4_buffer("power_series_gauss", gauss_rows(points)));
     Buffer moments{"power_series_moment", Element::vec4, nullptr, 0, nullptr};
     if (order * places > 1) {
