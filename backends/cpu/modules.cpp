@@ -8,6 +8,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "backends/cpu/entry_index.h"
 #include "framework/interfaces/error.h"
 
 namespace dvrlab::cpu {
@@ -53,6 +54,8 @@ int element_code(Element e) {
       return DVR_ELEMENT_VEC4;
     case Element::i32:
       return DVR_ELEMENT_I32;
+    case Element::ivec4:
+      return DVR_ELEMENT_IVEC4;
   }
   return DVR_ELEMENT_F32;
 }
@@ -67,12 +70,17 @@ void Bindings::add(const KernelUnit& unit) {
     c.i = u.i;
     uniforms_.push_back(c);
   }
+  // An index lives as long as the unit's surface.
+  for (const EntrySurface& s : unit.surfaces)
+    surfaces_.push_back({s.name.c_str(), entry_index_of(s).get(), EntryIndex::find, EntryIndex::find64});
   for (const Buffer& b : unit.buffers)
     buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count, b.data64.get()});
 }
 
 dvr_bindings Bindings::view() const {
-  return {uniforms_.data(), static_cast<int>(uniforms_.size()), buffers_.data(), static_cast<int>(buffers_.size())};
+  return {uniforms_.data(), static_cast<int>(uniforms_.size()),
+          buffers_.data(),  static_cast<int>(buffers_.size()),
+          surfaces_.data(), static_cast<int>(surfaces_.size())};
 }
 
 namespace {

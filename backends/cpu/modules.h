@@ -34,6 +34,7 @@ class Bindings {
  private:
   std::vector<dvr_uniform> uniforms_;
   std::vector<dvr_buffer> buffers_;
+  std::vector<dvr_entry_surface> surfaces_;
 };
 
 /// A module's state for one frame, in float or double.

@@ -57,6 +57,7 @@ std::size_t bytes_of(Element e) {
     case Element::i32:
       return 4;
     case Element::vec4:
+    case Element::ivec4:
       return 16;
   }
   return 0;

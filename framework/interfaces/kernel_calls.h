@@ -30,11 +30,30 @@ typedef struct DVR_OF(dvr_chunk) {
   alignas(64) DVR_REAL s[(DVR_CHUNK + 2) * DVR_MAX_WIDTH];
   DVR_REAL v[(DVR_CHUNK + 2) * DVR_MAX_WIDTH];
   DVR_REAL g[3][(DVR_CHUNK + 2) * DVR_MAX_WIDTH]; /* world gradient of v, where it was needed */
+  DVR_REAL h[3][DVR_CHUNK * DVR_MAX_WIDTH];       /* a walking sampler: at the front end of each segment, where the
+                                                    gradient may jump; g is at the back end then */
   DVR_REAL len[DVR_CHUNK * DVR_MAX_WIDTH];        /* true length; 0: no segment (masked) */
   DVR_REAL c[3][DVR_CHUNK * DVR_MAX_WIDTH];       /* radiance of the segment */
   DVR_REAL t[3][DVR_CHUNK * DVR_MAX_WIDTH];       /* transmittance; grey: the first only */
   int n;                                          /* rows in use */
 } DVR_OF(dvr_chunk);
+
+/* Rays that look for the next face of a surface (framework/kernel/entry.kernel). try_face judges one face for every lane
+ * with `on`, and keeps it in s and face where it is the next one so far. */
+typedef struct DVR_OF(dvr_entries) {
+  alignas(64) DVR_REAL o[3][DVR_MAX_WIDTH]; /* sampler coordinates of the entry point */
+  DVR_REAL d[3][DVR_MAX_WIDTH];             /* sampler coordinates per arc length */
+  DVR_REAL axes[9][DVR_MAX_WIDTH];          /* the frame: across, up, along */
+  DVR_REAL from[DVR_MAX_WIDTH];             /* bounds of the search */
+  DVR_REAL after[DVR_MAX_WIDTH];
+  int after_face[DVR_MAX_WIDTH];
+  DVR_REAL s[DVR_MAX_WIDTH]; /* the next face: arc position and index, 3e38 and -1 for none */
+  int face[DVR_MAX_WIDTH];
+  int on[DVR_MAX_WIDTH]; /* lanes that take part: in find() all that search, in try_face() those that may enter the face */
+  int width;
+  const void* kernel; /* the module's own */
+  void (*try_face)(const void* kernel, struct DVR_OF(dvr_entries) * rays, int face);
+} DVR_OF(dvr_entries);
 
 typedef struct DVR_OF(dvr_sampler_calls) {
   void (*start)(const void* frame, DVR_OF(dvr_packet) * packet);

@@ -7,7 +7,7 @@
 #ifndef DVRLAB_KERNEL_MODULE_H
 #define DVRLAB_KERNEL_MODULE_H
 
-#define DVR_KERNEL_ABI 3
+#define DVR_KERNEL_ABI 4
 #define DVR_CHUNK 8      /* segments per chunk */
 #define DVR_MAX_WIDTH 16 /* lanes of the widest instruction set */
 #define DVR_WALK_OPEN (1 << 30)
@@ -20,7 +20,8 @@ enum {
   DVR_ELEMENT_I16,
   DVR_ELEMENT_F32,
   DVR_ELEMENT_VEC4,
-  DVR_ELEMENT_I32
+  DVR_ELEMENT_I32,
+  DVR_ELEMENT_IVEC4
 };
 enum { DVR_FEATURE_RGB = 1, DVR_FEATURE_FULL = 2 }; /* bits that choose the compiled variant */
 
@@ -40,13 +41,6 @@ typedef struct dvr_buffer {
                                in their own type; 0 for none */
 } dvr_buffer;
 
-typedef struct dvr_bindings {
-  const dvr_uniform* uniforms;
-  int uniform_count;
-  const dvr_buffer* buffers;
-  int buffer_count;
-} dvr_bindings;
-
 #define DVR_REAL float
 #define DVR_OF(name) name
 #include "framework/interfaces/kernel_calls.h"
@@ -57,6 +51,23 @@ typedef struct dvr_bindings {
 #include "framework/interfaces/kernel_calls.h"
 #undef DVR_REAL
 #undef DVR_OF
+
+/* EntrySurface of kernel_unit.h: finds the faces that each ray may enter and calls rays->try_face for them. */
+typedef struct dvr_entry_surface {
+  const char* name;
+  const void* index; /* the backend's */
+  void (*find)(const void* index, dvr_entries* rays);
+  void (*find64)(const void* index, dvr_entries64* rays);
+} dvr_entry_surface;
+
+typedef struct dvr_bindings {
+  const dvr_uniform* uniforms;
+  int uniform_count;
+  const dvr_buffer* buffers;
+  int buffer_count;
+  const dvr_entry_surface* surfaces;
+  int surface_count;
+} dvr_bindings;
 
 typedef struct dvr_kernel_module {
   int abi;          /* DVR_KERNEL_ABI */

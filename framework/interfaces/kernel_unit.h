@@ -28,7 +28,7 @@ struct Uniform {
   static Uniform vector(std::string name, double x, double y, double z, double w = 0.0);
 };
 
-enum class Element { u8, i8, u16, i16, f32, vec4, i32 };
+enum class Element { u8, i8, u16, i16, f32, vec4, i32, ivec4 };
 std::size_t bytes_of(Element e);
 
 /// An array that kernels read through fetch primitives only. The memory is shared, never copied by the owner.
@@ -44,12 +44,21 @@ struct Buffer {
   std::uint64_t bytes64() const { return data64 ? 2 * bytes() : 0; }
 };
 
+/// A surface of triangles of which kernels ask which one a ray enters next (framework/kernel/entry.kernel). Backends answer
+/// with a hierarchy of their own, which only chooses the faces that the kernel's text judges.
+struct EntrySurface {
+  std::string name;
+  /// Corners of each face in sampler coordinates.
+  std::shared_ptr<const std::vector<std::array<std::array<float, 3>, 3>>> faces;
+};
+
 /// One kernel with everything that it reads.
 struct KernelUnit {
   std::string plugin;  // "direct"
   std::string folder;  // where <plugin>.kernel and <plugin>.<isa>.so lie
   std::vector<Uniform> uniforms;
   std::vector<Buffer> buffers;
+  std::vector<EntrySurface> surfaces;
   /// An estimator's: fetches of four numbers from its own tables per segment, at the most.
   int fetches = 0;
 };

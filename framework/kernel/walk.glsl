@@ -5,8 +5,8 @@
 //                                the first sample of the ray o + s d, 0 <= s <= L (sampler coordinates)
 //   inti walk_next(vec3r o, vec3r d, real L, INOUT(walk_state) w)
 //                                1: moved to the next sample through matter, 2: through a gap, 0: the ray is through
-//   vec3r walk_gradient(vec3r o, vec3r d, walk_state w)
-//                                the world gradient at the current sample, continuous along the ray
+//   vec3r walk_gradient(vec3r o, vec3r d, walk_state w, real s)
+//                                the world gradient at s in the cell ahead of w; it may jump from cell to cell
 // The scalar is linear between two samples. A segment of length 0 counts as a gap.
 walk_state stream_walk;
 bool stream_walking = true;      // the ray is not through
@@ -32,8 +32,8 @@ bool stream_next(inout segment q) {
   q.v = 0.5 * (front.v + stream_walk.v);
   q.g0 = q.g1 = q.g = vec3(0.0);
   if (kind == 1 && frame_gradient != 0 && medium_shaded(front.v, stream_walk.v)) {
-    q.g0 = walk_gradient(stream_o, stream_d, front);
-    q.g1 = walk_gradient(stream_o, stream_d, stream_walk);
+    q.g0 = walk_gradient(stream_o, stream_d, front, front.s);
+    q.g1 = walk_gradient(stream_o, stream_d, front, stream_walk.s);
     q.g = (q.g0 + q.g1) * 0.5;
   }
   stream_walking = kind != 0;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "framework/interfaces/error.h"
+#include "framework/shader/entry_tree.h"
 #include "framework/shader/paged_buffers.h"
 #include "framework/shader/uniform_blocks.h"
 
@@ -14,7 +15,7 @@ namespace dvrlab {
 namespace {
 
 /// The order of the texts. A part without a file is generated, is the kernel of a plugin, or the stream that fits it.
-enum class From { framework, generated, sampler, stream, estimator };
+enum class From { framework, generated, entry, sampler, stream, estimator };
 struct Part {
   From from;
   const char* file;
@@ -29,6 +30,7 @@ constexpr Part part_list[] = {
     {From::framework, "shading.kernel"},
     {From::framework, "segment.kernel"},
     {From::framework, "volume.kernel"},
+    {From::entry, "entry.kernel"},
     {From::sampler, ""},
     {From::framework, "steps.kernel"},
     {From::framework, "stream.glsl"},
@@ -106,11 +108,14 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   std::string buffers;
   for (const auto& [role, unit] : units) {
     names.add(*unit, role);
-    for (const Buffer& buffer : unit->buffers) {
+    const auto bind = [&](const Buffer& buffer) {
       shader.buffers.push_back(page_buffer(buffer, range, binding));
       binding += int(shader.buffers.back().pages.size());
       buffers += buffer_text(shader.buffers.back());
-    }
+    };
+    for (const Buffer& buffer : unit->buffers) bind(buffer);
+    for (const EntrySurface& surface : unit->surfaces)
+      for (const Buffer& buffer : *entry_tree_of(surface)) bind(buffer);
   }
   check_page_count(shader, limits, range);
 
@@ -145,8 +150,14 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
       case From::generated:
         name = "generated declarations", text = generated;
         break;
+      case From::entry:
+        if (job.sampler.surfaces.empty()) continue;
+        name = part.file, text = read_text(job.kernel_folder + "/" + name);
+        for (const EntrySurface& surface : job.sampler.surfaces) text += entry_declaration(surface);
+        break;
       case From::sampler:
         name = job.sampler.folder + "/" + job.sampler.plugin + ".kernel", text = read_text(name);
+        for (const EntrySurface& surface : job.sampler.surfaces) text += entry_definition(surface);
         break;
       case From::estimator:
         name = job.estimator.folder + "/" + job.estimator.plugin + ".kernel", text = read_text(name);

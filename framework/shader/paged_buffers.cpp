@@ -33,6 +33,8 @@ Packing packing(Element element) {
       return {"vec4", 0, true};
     case Element::i32:
       return {"int", 0, true};
+    case Element::ivec4:
+      return {"ivec4", 0, true};
   }
   throw std::logic_error("buffer of an unknown element type");
 }
@@ -80,6 +82,7 @@ std::string packed_functions(const std::string& name, const Packing& pack) {
 std::string unbound_text(const std::string& name, const Packing& pack) {
   const std::string word = pack.word;
   if (word == "vec4") return "vec4 fetch4_" + name + "(int i) { return vec4(0.0); }\n";
+  if (word == "ivec4") return "ivec4 fetchi4_" + name + "(int i) { return ivec4(0); }\n";
   return "int fetchi_" + name + "(int i) { return 0; }\nfloat fetch1_" + name +
          "(uint i) { return 0.0; }\nvoid fetch2_" + name + "(uint i, out float a, out float b) { a = b = 0.0; }\n";
 }
@@ -88,7 +91,8 @@ std::string unbound_text(const std::string& name, const Packing& pack) {
 
 PagedBuffer page_buffer(const Buffer& buffer, std::uint64_t range, int binding) {
   const std::uint64_t size = bytes_of(buffer.element);
-  const bool by_int = buffer.element == Element::vec4 || buffer.element == Element::i32;
+  const bool by_int =
+      buffer.element == Element::vec4 || buffer.element == Element::i32 || buffer.element == Element::ivec4;
   if (buffer.count >> (by_int ? 31 : 32) != 0)
     throw NotSupported("the buffer " + buffer.name + " has " + std::to_string(buffer.count) +
                        " elements, more than a kernel's index can count");
@@ -122,6 +126,8 @@ std::string buffer_text(const PagedBuffer& paged) {
   text += word_function(paged, pack);
   const std::string word = "dvr_word_" + name;
   if (pack.shift != 0) return text + unpack_function(name, pack) + packed_functions(name, pack);
+  if (paged.buffer.element == Element::ivec4)
+    return text + "ivec4 fetchi4_" + name + "(int i) { return " + word + "(uint(i)); }\n";
   if (paged.buffer.element == Element::vec4)
     return text + "vec4 fetch4_" + name + "(int i) { return " + word + "(uint(i)); }\n";
   if (paged.buffer.element == Element::i32)

@@ -4,6 +4,7 @@
 #define mask bool
 #define vec3r vec3
 #define vec4r vec4
+#define vec4i ivec4
 #if DVR_RGB
 #define spectral vec3
 #else
@@ -25,6 +26,8 @@
 #define UNIFORM_V(name)
 #define TABLE4(name)
 #define TABLEI(name)
+#define TABLEI4(name)
+#define ENTRY(name)
 #define BYTES(name)
 #define VOXELS(name) DVR_DEFINE_FETCH_CELL(name)
 #define VOLUME(name) DVR_DEFINE_FETCH_CELL(name)
@@ -34,6 +37,8 @@
 #define fetch4(name, i) fetch4_##name(i)
 #define fetch4u(name, i) fetch4_##name(i)
 #define fetchi(name, i) fetchi_##name(i)
+#define fetchi4(name, i) fetchi4_##name(i)
+#define entry_next(name, f, o, d, e, on) entry_next_##name(f, o, d, e)
 #define fetch4_affine(name, i, w) (fetch4_##name(2 * (i)) + fetch4_##name(2 * (i) + 1) * (w))
 
 struct cell8 { float v000, v100, v010, v110, v001, v101, v011, v111; };

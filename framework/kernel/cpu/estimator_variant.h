@@ -15,6 +15,8 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/integrate.kernel"
   // clang-format on
 
+  UNIFORM_I(frame_walks)  // 1: a walking sampler: the gradient at the front end is its own
+
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
   KFN void integrate(const ray_packet* p, ray_chunk* c) {
     segment q = segment_of_ray({load(p->world_o[0]), load(p->world_o[1]), load(p->world_o[2])},
@@ -29,7 +31,8 @@ struct DVR_STRUCT : kernel_base {
       q.v0 = q.v_prev = load(c->v + a);
       q.v1 = q.v = load(c->v + b);
       q.v_next = load(c->v + e);
-      q.g0 = {load(c->g[0] + a), load(c->g[1] + a), load(c->g[2] + a)};
+      q.g0 = frame_walks != 0 ? vec3r{load(c->h[0] + a), load(c->h[1] + a), load(c->h[2] + a)}
+                              : vec3r{load(c->g[0] + a), load(c->g[1] + a), load(c->g[2] + a)};
       q.g1 = q.g = {load(c->g[0] + b), load(c->g[1] + b), load(c->g[2] + b)};
       vec3r color;
       spectral t;

@@ -29,6 +29,12 @@ struct table4 {
 struct tablei {
   const int32_t* data;
 };
+struct tablei4 {
+  const int32_t* data;
+};
+struct vec4i {
+  inti x, y, z, w;
+};
 struct bytes8 {
   const uint8_t* data;
 };
@@ -56,6 +62,10 @@ DVR_INLINE void fetch2_at(const T* p, const lane_index& i, real& a, real& b) {
 }
 DVR_INLINE inti fetchi(tablei b, inti i) { return {b.data[i.v]}; }
 DVR_INLINE inti fetchi(bytes8 b, inti i) { return {b.data[uint32_t(i.v)]}; }
+DVR_INLINE vec4i fetchi4(tablei4 b, inti i) {
+  const int32_t* p = b.data + 4 * std::ptrdiff_t(i.v);
+  return {{p[0]}, {p[1]}, {p[2]}, {p[3]}};
+}
 DVR_INLINE vec4r fetch4(table4 b, inti i) {
   const scalar* p = b.data + 4 * i.v;
   return {{p[0]}, {p[1]}, {p[2]}, {p[3]}};
@@ -238,6 +248,13 @@ DVR_INLINE vec4r fetch4(table4 b, inti i) {
   const lane_index n(i);
   return transpose4(block4(b.data, n, 0, 4, 0), block4(b.data, n, 1, 4, 0), block4(b.data, n, 2, 4, 0),
                     block4(b.data, n, 3, 4, 0));
+}
+/// The same, bit for bit: nothing computes with the numbers on the way.
+DVR_INLINE vec4i fetchi4(tablei4 b, inti i) {
+  const lane_index n(i);
+  const float* p = reinterpret_cast<const float*>(b.data);
+  const vec4r r = transpose4(block4(p, n, 0, 4, 0), block4(p, n, 1, 4, 0), block4(p, n, 2, 4, 0), block4(p, n, 3, 4, 0));
+  return {as_int(r.x), as_int(r.y), as_int(r.z), as_int(r.w)};
 }
 /// Entries are pairs (value, difference to the next): value + difference * w, interpolated before the transpose,
 /// where one multiply-add serves four channels of a quarter of the lanes.

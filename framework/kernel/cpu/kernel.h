@@ -30,11 +30,13 @@ DVR_INLINE vec3r xyz(vec4r a) { return {a.x, a.y, a.z}; }
 typedef dvr_packet64 ray_packet;
 typedef dvr_chunk64 ray_chunk;
 typedef dvr_calls64 module_calls;
+typedef dvr_entries64 ray_entries;
 #define DVR_INIT(function) nullptr, function
 #else
 typedef dvr_packet ray_packet;
 typedef dvr_chunk ray_chunk;
 typedef dvr_calls module_calls;
+typedef dvr_entries ray_entries;
 #define DVR_INIT(function) function, nullptr
 #endif
 
@@ -92,6 +94,12 @@ struct kernel_base {
     note(name);
     return nullptr;
   }
+  dvr_entry_surface surface(const char* name) {
+    for (int k = 0; k < bindings->surface_count; ++k)
+      if (strcmp(bindings->surfaces[k].name, name) == 0) return bindings->surfaces[k];
+    note(name);
+    return {};
+  }
   /// Numbers that were computed, in this module's precision. A table without fp64 values is missing to a module in
   /// fp64.
   const scalar* numbers(const char* name, int element) {
@@ -127,6 +135,8 @@ DVR_INLINE State local(const void* frame) {
 #define UNIFORM_V(name) dvr::uvec4 name = this->uniform_v(#name);
 #define TABLE4(name) dvr::table4 name = {this->numbers(#name, DVR_ELEMENT_VEC4)};
 #define TABLEI(name) dvr::tablei name = {this->buffer<int32_t>(#name, DVR_ELEMENT_I32)};
+#define TABLEI4(name) dvr::tablei4 name = {this->buffer<int32_t>(#name, DVR_ELEMENT_IVEC4)};
 #define BYTES(name) dvr::bytes8 name = {this->buffer<uint8_t>(#name, DVR_ELEMENT_U8)};
 #define VOLUME(name) dvr::voxels<dvr::scalar> name = {this->numbers(#name, DVR_ELEMENT_F32)};
+// ENTRY(name) is a word of walking samplers (framework/kernel/cpu/entry.h).
 // VOXELS(name) is defined by the sampler and stage modules: the voxel type is the module's variant.

@@ -23,7 +23,11 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/cells.kernel"
 #undef VOXELS
 #else
+#include "framework/kernel/entry.kernel"
+#include "framework/kernel/cpu/entry.h"
 #include DVR_KERNEL_FILE
+#undef ENTRY
+#undef entry_next
 #endif
   // clang-format on
 
@@ -45,8 +49,8 @@ struct DVR_STRUCT : kernel_base {
     const real L = s.t1 - s.t0;
     const mask hit = L > R(0.0f);
     const vec3r o = r.grid_o + r.grid_d * s.t0;
-    store3(p->grid_o, o);
-    store3(p->world_o, r.world_o + r.world_d * s.t0);
+    dvr::store3(p->grid_o, o);
+    dvr::store3(p->world_o, r.world_o + r.world_d * s.t0);
     store(p->n, select(hit, I(DVR_WALK_OPEN), I(0)));
     store(p->i, I(0));
     store(p->skipped, I(0));
@@ -82,13 +86,9 @@ struct DVR_STRUCT : kernel_base {
         put(c, k + 1, R(0.5f) * (front.s + w.s), R(0.5f) * (front.v + w.v));
       }
       if (frame_gradient != 0 && any_lane(alive && kind == I(1) && medium_shaded(front.v, w.v))) {
-        const vec3r a = walk_gradient(o, d, front), b = walk_gradient(o, d, w);
-        if (ends) {
-          put_gradient(c, k, a);
-          put_gradient(c, k + 1, b);
-        } else {
-          put_gradient(c, k + 1, (a + b) * R(0.5f));
-        }
+        const vec3r a = walk_gradient(o, d, front, front.s), b = walk_gradient(o, d, front, w.s);
+        store3(c->h, k, a);
+        store3(c->g, k + 1, ends ? b : (a + b) * R(0.5f));
       }
     }
     *static_cast<walk_state*>(p->walk) = w;
@@ -102,9 +102,10 @@ struct DVR_STRUCT : kernel_base {
     store(c->s + row * W, s);
     store(c->v + row * W, v);
   }
-  KFN static void put_gradient(ray_chunk* c, int row, vec3r g) {
-    store(c->g[0] + row * W, g.x);
-    store(c->g[1] + row * W, g.y);
-    store(c->g[2] + row * W, g.z);
+  template <class Rows>
+  KFN static void store3(Rows& rows, int row, vec3r g) {
+    store(rows[0] + row * W, g.x);
+    store(rows[1] + row * W, g.y);
+    store(rows[2] + row * W, g.z);
   }
 };

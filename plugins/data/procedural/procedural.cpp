@@ -4,21 +4,43 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
+#include "framework/interfaces/mesh_keys.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/sha256.h"
 #include "framework/scene/voxels.h"
 #include "plugins/data/procedural/fill_grid.h"
+#include "plugins/data/procedural/fill_mesh.h"
 
 namespace dvrlab::procedural {
 namespace {
 
 using enum ParameterType;
+
+constexpr Parameter mesh_gradient_key_of_procedural = [] {
+  Parameter key = mesh_gradient_key;
+  key.only_with = "evaluate=mesh";
+  key.live_in =
+      R"({"data":{"evaluate":"mesh","size":[5,5,5]},"optical_model":{"shaded":true},"estimator":{"type":"direct"},"illumination":[{"type":"blinn_phong"}]})";
+  return key;
+}();
+
 constexpr Parameter parameters[] = {
     {"field", choice, "", R"("marschner_lobb")",
      "constant|ramp|radial|sphere|marschner_lobb|sinusoid|polynomial|polyline|march_table",
      "The formula; the keys that it reads stand in the documentation.", Affects::pixels, "{}", R"("sphere")"},
-    {"evaluate", choice, "", R"("grid")", "grid|formula", "On a grid of voxels, or exactly at every sample.",
-     Affects::pixels, "{}", R"("formula")"},
+    {"evaluate", choice, "", R"("grid")", "grid|formula|mesh",
+     "On a grid of voxels, exactly at every sample, or at the points of an unstructured mesh.", Affects::pixels, "{}",
+     R"("formula")"},
+    {"cells", choice, "", R"("tetrahedra6")",
+     "tetrahedra5|tetrahedra6|hexahedra|wedges|pyramids|tetrahedra10|hexahedra20|wedges15",
+     "Into what each brick between eight grid points is cut; tetrahedra10, hexahedra20 and wedges15 are quadratic.",
+     Affects::pixels, R"({"data":{"evaluate":"mesh","size":[5,5,5]}})", R"("tetrahedra5")", "evaluate=mesh"},
+    {"jitter", number, "spacing", "0", "[0,0.5)",
+     "How far points that are not on the surface of the box move at the most, on each axis.", Affects::pixels,
+     R"({"data":{"evaluate":"mesh","size":[5,5,5]}})", "0.2", "evaluate=mesh"},
+    {"jitter_seed", integer, "", "1", "[0,4294967295]", "Which of the ways to move them.", Affects::pixels,
+     R"({"data":{"evaluate":"mesh","size":[5,5,5],"jitter":0.2}})", "2", "evaluate=mesh"},
+    mesh_gradient_key_of_procedural,
     {"bounds", json, "world", "[[-1,-1,-1],[1,1,1]]", "", "Lower and upper corner of the box, [[x,y,z],[x,y,z]].",
      Affects::pixels, "{}", "[[-1,-1,-1],[1,1,0.5]]", "",
      R"({"type":"array","minItems":2,"maxItems":2,"items":{"type":"array","minItems":3,"maxItems":3,"items":{"type":"number"}}})"},
@@ -72,7 +94,7 @@ std::array<long long, 3> sizes(const ParameterSet& p) {
 }
 
 std::string describe(const ParameterSet& p) {
-  return "procedural " + p.text("field") + (p.text("evaluate") == "formula" ? ", formula" : ", grid");
+  return "procedural " + p.text("field") + ", " + p.text("evaluate");
 }
 
 std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& box, const ParameterSet& p) {
@@ -101,13 +123,28 @@ std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& bo
   return field;
 }
 
+MeshPlan mesh_plan(const ParameterSet& p) {
+  return {p.integer3("size"), read_bounds(p), static_cast<BoxCells>(p.choice_index("cells")), p.number("jitter"),
+          static_cast<std::uint32_t>(p.integer("jitter_seed"))};
+}
+
+std::shared_ptr<const Field> mesh_field(const FormulaParams& f, const ParameterSet& p, const LoadContext& context) {
+  auto mesh = std::make_shared<MeshField>(fill_mesh(f, mesh_plan(p)));
+  mesh->source = describe(p) + " of " + p.text("cells");
+  mesh->gradient = mesh_gradient(p);
+  mesh->sha256 = sha256({std::as_bytes(std::span(mesh->point)), std::as_bytes(std::span(mesh->value)),
+                         std::as_bytes(std::span(mesh->node))});
+  finish_mesh(*mesh, context.nan_policy, context.nan_value);
+  return mesh;
+}
+
 class Procedural : public DataPlugin {
  public:
   void check(const ParameterSet& p) const override {
     const FormulaParams f = make_formula(p);
     const Box box = read_bounds(p);
     read_range(p, range(f, box.lo, box.hi));
-    if (f.kind == Kind::march_table && p.text("evaluate") == "formula")
+    if (f.kind == Kind::march_table && p.text("evaluate") != "grid")
       throw InputError(p.path_of("evaluate") + ": march_table is defined on a grid only; set it to \"grid\"");
     grid_bytes(sizes(p), bytes_of(voxel_types[p.choice_index("voxel_type")]), p.path_of("size"));
   }
@@ -116,6 +153,7 @@ class Procedural : public DataPlugin {
     const FormulaParams f = make_formula(p);
     const Box box = read_bounds(p);
     if (p.text("evaluate") == "formula") return formula_field(f, box, p);
+    if (p.text("evaluate") == "mesh") return mesh_field(f, p, context);
     const auto grid = std::make_shared<GridField>(
         fill_grid(f, {p.integer3("size"), voxel_types[p.choice_index("voxel_type")], box,
                       p.text("placement") == "cell_centres", read_range(p, range(f, box.lo, box.hi))}));
@@ -128,6 +166,7 @@ class Procedural : public DataPlugin {
   std::uint64_t bytes_needed(const ParameterSet& p, const LoadContext&) const override {
     const std::uint64_t bytes =
         grid_bytes(sizes(p), bytes_of(voxel_types[p.choice_index("voxel_type")]), p.path_of("size"));
+    if (p.text("evaluate") == "mesh") return mesh_bytes(mesh_plan(p));
     return p.text("evaluate") == "formula" ? 0 : bytes;
   }
 };

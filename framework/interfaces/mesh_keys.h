@@ -1,0 +1,23 @@
+// Keys that data plugins of meshes share.
+#pragma once
+
+#include "framework/interfaces/mesh.h"
+#include "framework/interfaces/parameter_set.h"
+
+namespace dvrlab {
+
+inline constexpr Parameter mesh_gradient_key{
+    "gradient",
+    ParameterType::choice,
+    "",
+    R"("vertex_inverse_distance")",
+    "cell|vertex|vertex_inverse_distance",
+    "What the normals of a mesh follow: the gradient of each cell; or those at the corners, the mean of the cells around, "
+    "linear between, which may weigh a cell with the inverse of its centre's distance.",
+    Affects::pixels,
+    "",
+    R"("cell")"};
+
+inline MeshGradient mesh_gradient(const ParameterSet& p) { return static_cast<MeshGradient>(p.choice_index("gradient")); }
+
+}  // namespace dvrlab
