@@ -50,7 +50,8 @@ struct KernelUnit {
   std::string folder;  // where <plugin>.kernel and <plugin>.<isa>.so lie
   std::vector<Uniform> uniforms;
   std::vector<Buffer> buffers;
-  /// An estimator's: fetches of four numbers from its own tables per segment, at the most.
+  /// An estimator's: fetches of four numbers per segment from its own tables, and from the medium's beside those that
+  /// it declares, at the most; a segment that it divides counts as one part.
   int fetches = 0;
 };
 
