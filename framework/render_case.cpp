@@ -20,23 +20,6 @@ std::string scene_key(const ResolvedCase& c) {
   return key.dump();
 }
 
-LoadContext load_context(const ResolvedCase& c) {
-  return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
-}
-
-bool optional_data_missing(const ResolvedCase& c, std::string& why) {
-  const ParameterSet& p = c.data.parameters;
-  if (!p.boolean("optional") || !c.config["data"].contains("file")) return false;
-  const LoadContext context = load_context(c);
-  try {
-    resolve_path(p.text("file"), context, p.path_of("file"));
-  } catch (const InputError& e) {
-    why = e.what();
-    return true;
-  }
-  return false;
-}
-
 double bytes_of(const FrameJob& job) {
   double bytes = 0;
   for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) {
@@ -73,8 +56,7 @@ const Scene& CaseRenderer::scene(const ResolvedCase& c, CaseRecord& record) {
   const std::string key = scene_key(c);
   if (scene_ == nullptr || key != scene_key_) {
     scene_.reset();
-    std::string why;
-    if (optional_data_missing(c, why)) throw NotSupported(why);
+    require_data(c);
     const double start = now();
     const auto& data = registry_.get<DataPlugin>("data", c.data.type);
     MemoryBill memory = bill(c);

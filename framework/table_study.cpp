@@ -13,19 +13,19 @@ namespace dvrlab {
 namespace {
 
 /// A grid whose columns along z are the pairs: v0 in the upper layer, which a ray from above meets first, v1 in the
-/// lower one. One more row of columns on every side, so that no ray runs on the border.
+/// lower one. Two by two columns are alike, so that a ray between them finds just their value, wherever it runs.
 std::shared_ptr<GridField> pairs_of(const Field& field, double length, double lo, double hi, int points) {
   auto grid = std::make_shared<GridField>();
   static_cast<Field&>(*grid) = field;  // range, slope, units: what the medium depends on
   grid->sampler = "grid";
-  const int side = points + 2;
+  const int side = 2 * points;
   grid->dims = {side, side, 2};
   grid->to_world = {{field.voxel, 0, 0, 0, field.voxel, 0, 0, 0, length}, {0, 0, 0}};
   grid->lo = {0, 0, 0};
   grid->hi = {side - 1.0, side - 1.0, 1};
   grid->type = VoxelType::f32;
   const auto value = [&](int k) {
-    const double u = std::clamp(k - 1, 0, points - 1) / std::max(points - 1.0, 1.0);
+    const double u = (k / 2) / std::max(points - 1.0, 1.0);
     return static_cast<float>(lo + (hi - lo) * u);
   };
   auto voxels = std::make_shared<std::vector<float>>();
@@ -43,7 +43,7 @@ nlohmann::json pairs_config(const ResolvedCase& c, const GridField& grid, double
     config.erase(key);
   const double x = grid.hi[0] * grid.voxel, unit = 0.5 * std::sqrt(2 * x * x + length * length);
   config["camera"] = {{"type", "orthographic"}, {"frame", "data"}, {"position", {0, 0, 4}},
-                      {"target", {0, 0, 0}},    {"up", {0, 1, 0}}, {"height", points * grid.voxel / unit}};
+                      {"target", {0, 0, 0}},    {"up", {0, 1, 0}}, {"height", 2 * points * grid.voxel / unit}};
   config["sampling"] = {
       {"type", "uniform"}, {"step", length}, {"unit", "world"}, {"termination", 0}, {"skipping", false}};
   config["image"] = {{"size", {points, points}}, {"space", c.image.text("space")}};

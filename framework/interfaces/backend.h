@@ -28,7 +28,8 @@ struct FrameJob {
   KernelUnit sampler;
   KernelUnit estimator;
   std::string kernel_folder;  // framework/kernel
-  /// Fetches of four numbers from transfer function and estimator tables per segment, at the most.
+  /// Fetches of four numbers from transfer function and estimator tables per segment, at the most; a segment that the
+  /// estimator divides counts as one part.
   int table_fetches = 0;
   /// Bytes of one storage buffer binding on a GPU, when lower than what the device offers; 0: the device's own.
   std::uint64_t gpu_buffer_limit = 0;

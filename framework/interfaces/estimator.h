@@ -23,6 +23,9 @@ enum class OpaquePrediction {
 struct EstimatorDeclaration {
   enum class Samples { ends, centre };
   Samples samples = Samples::ends;
+  /// With `ends`: the kernel looks at the medium at the front end only, so that an opaque value between the ends is
+  /// not seen, as with `centre` one beside the centre.
+  bool front_only = false;
   /// True: the kernel assumes that every segment has the nominal step.
   bool fixed_length = false;
   /// `centre`: also needs v_prev and v_next (for |dv| terms).
@@ -31,14 +34,14 @@ struct EstimatorDeclaration {
   bool needs_nodes = false;
   /// Bins of the medium's cumulative tables (medium_mean of framework/kernel/mean.kernel); 0: it does not use them.
   int mean_bins = 0;
-  /// Light factors inside a segment: the mode of light_of_segment (framework/kernel/light.kernel), the place of the
-  /// word in the shared key `shading`.
+  /// Light factors inside a segment: the mode of light_of_segment (framework/kernel/light.kernel), as segment_shading
+  /// (framework/interfaces/segment_keys.h) makes it of the shared key `shading`.
   int shading = 0;
   /// Cells over the range of values of the coarsest table that it sees the medium through, 0 when it asks pointwise: a
   /// value that contributes nothing may be smeared by so much.
   int cells = 0;
-  /// How often a segment asks medium_at and medium_mean, for the count of table fetches. What it reads from tables of
-  /// its own is KernelUnit::fetches.
+  /// How often a segment asks medium_at and medium_mean, for the count of table fetches. Others that it makes, and
+  /// those from tables of its own, are KernelUnit::fetches.
   int points = 0, means = 0;
   OpaquePrediction prediction = OpaquePrediction::both;
   /// With prediction off: per length unit of the optical model.
@@ -51,6 +54,18 @@ struct EstimatorDeclaration {
   bool cuts_diracs = false;
   /// The terms that it can integrate, Terms::bit(...) | ...
   unsigned handles = 0;
+
+  /// Opaque values are seen at one point of a segment, not on the way between its ends.
+  bool pointwise() const { return front_only || samples == Samples::centre; }
+};
+
+/// What decides how many numbers a kernel's tables hold.
+struct TableLayout {
+  Terms terms;
+  bool full = false;           // the kernel's variant has light factors; without them every source is lit by 1
+  bool lit_particles = false;  // m differs from 1
+  int groups = 1;              // of four numbers, of the medium's own tables (BinMedium::groups without the barycentre)
+  Precision precision = Precision::strict;  // of the kernel
 };
 
 /// What an estimator is told beside its own parameters. Values are stored units.
@@ -73,9 +88,10 @@ class EstimatorPlugin : public Plugin {
   /// Reshapes the bins of the medium before cumulative tables are made of them. `step`: the nominal length of a
   /// segment, world units.
   virtual void shape_bins(const ParameterSet& /*parameters*/, double /*step*/, BinMedium& /*bins*/) const {}
-  /// Bytes that prepare() will allocate at the most for a medium with these terms: its tables, and what it needs to
-  /// build them.
-  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/, const Terms& /*terms*/) const { return 0; }
+  /// Bytes that prepare() will allocate at the most: its tables, and what it needs to build them.
+  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/, const TableLayout& /*layout*/) const {
+    return 0;
+  }
   /// Tables and derived uniforms. The numeric parameters are added by the framework.
   virtual void prepare(const ParameterSet& /*parameters*/, const EstimatorContext& /*context*/,
                        KernelUnit& /*unit*/) const {}

@@ -59,7 +59,8 @@ struct KernelUnit {
   std::vector<Uniform> uniforms;
   std::vector<Buffer> buffers;
   std::vector<EntrySurface> surfaces;
-  /// An estimator's: fetches of four numbers from its own tables per segment, at the most.
+  /// An estimator's: fetches of four numbers per segment from its own tables, and from the medium's beside those that
+  /// it declares, at the most; a segment that it divides counts as one part.
   int fetches = 0;
 };
 

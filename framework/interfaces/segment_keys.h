@@ -91,13 +91,39 @@ inline constexpr Parameter max_extinction_key{
     "With opaque_prediction off: the extinction of opaque values, per length unit of the optical model.",
     Affects::pixels,
     R"({"optical_model":{"type":"absorption_emission","surface":null,"scattering":null,"dv_std":null,"opacity":[[0.3,0],[0.6,0.1],[0.6,1],[0.7,1],[0.7,0]]},"estimator":{"opaque_prediction":"off"}})",
-    "2"};
+    "2",
+    "opaque_prediction=off"};
 
 /// Fills an estimator's declaration from them.
 inline void declare_prediction(const ParameterSet& p, EstimatorDeclaration& d) {
   d.prediction = static_cast<OpaquePrediction>(p.choice_index("opaque_prediction"));
   d.max_extinction = p.number("max_extinction");
 }
+
+/// Bins of the framework's cumulative tables, for estimators that know the medium by them alone.
+inline constexpr Parameter mean_table_size_key{"table_size",
+                                               ParameterType::integer,
+                                               "",
+                                               "4096",
+                                               "[2,65536]",
+                                               "Bins of the cumulative tables.",
+                                               Affects::pixels,
+                                               "",
+                                               "16"};
+
+/// What estimators declare that ask for the mean of a segment's medium once and for nothing else.
+inline EstimatorDeclaration declaration_of_means(const ParameterSet& p) {
+  EstimatorDeclaration d;
+  d.samples = EstimatorDeclaration::Samples::ends;
+  d.shading = segment_shading(p);
+  d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
+  d.means = 1;
+  declare_prediction(p, d);
+  return d;
+}
+/// Only lengths: no surface terms, no Dirac terms.
+inline constexpr unsigned terms_per_length = Terms::bit(Term::tau_l) | Terms::bit(Term::E) | Terms::bit(Term::P) |
+                                             Terms::bit(Term::S_l) | Terms::bit(Term::W_l) | Terms::rgb_bit;
 
 inline constexpr Parameter approximate_dirac_key{
     "approximate_dirac",

@@ -102,10 +102,10 @@ void refuse_impossible(const ResolvedCase& c, const Medium& medium, const Estima
     throw InputError("sampling.type: \"cells\" ends segments where the field is no longer linear, but estimator \"" +
                      c.estimator.type + "\" needs equally spaced samples for the terms of optical model \"" +
                      c.optical_model.type + "\"; choose another estimator");
-  if (!isosurfaces(medium).empty() && d.samples == EstimatorDeclaration::Samples::centre)
+  if (!isosurfaces(medium).empty() && d.pointwise())
     throw InputError(
         "estimator.type: estimator \"" + c.estimator.type +
-        "\" looks at the middle of segments, where it does not see an isosurface of opacity 1; choose another "
+        "\" looks at one point of each segment, where it does not see an isosurface of opacity 1; choose another "
         "estimator or a lower opacity" +
         hint_of(c));
   if (!d.fp64 && precision_of(c) == Precision::fp64)
@@ -131,6 +131,22 @@ MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
   }
   if (!(o.hi > o.lo)) o.hi = o.lo + 1.0;  // a constant field: the table needs a width
   return o;
+}
+
+MediumTableOptions table_options(const ResolvedCase& c, const Field& field, const Medium& medium,
+                                 LocalShading::Mode light) {
+  using Mode = LocalShading::Mode;
+  const Terms terms = medium.terms();
+  MediumTableOptions o = table_options(c, field);
+  o.rgb = terms.rgb();
+  o.full = terms.surfaces() || terms.dirac() || light == Mode::prescribed || (medium.shaded() && light != Mode::none);
+  o.lit_particles = light == Mode::prescribed;
+  o.fold_shaded = !o.full;
+  return o;
+}
+
+TableLayout table_layout(const ResolvedCase& c, const Medium& medium, const MediumTableOptions& options) {
+  return {medium.terms(), options.full, options.lit_particles, MediumLayout(medium, options).count(), precision_of(c)};
 }
 
 }  // namespace dvrlab

@@ -7,6 +7,7 @@
 #include "framework/config/resolved_case.h"
 #include "framework/interfaces/estimator.h"
 #include "framework/interfaces/field.h"
+#include "framework/interfaces/illumination.h"
 #include "framework/interfaces/medium.h"
 #include "framework/plugin/registry.h"
 #include "framework/scene/medium_table.h"
@@ -25,7 +26,14 @@ Medium stored_medium(const ResolvedCase& c, const Registry& registry, const Fiel
 /// Throws InputError when the medium has terms that the estimator does not handle, or a table where it needs nodes.
 void refuse_impossible(const ResolvedCase& c, const Medium& medium, const EstimatorDeclaration& d);
 
-/// Where the medium's table lies and what it holds, but for `rgb`, `full` and `fold_shaded`.
+/// Where the medium's table lies, but for `rgb`, `full`, `lit_particles` and `fold_shaded`.
 MediumTableOptions table_options(const ResolvedCase& c, const Field& field);
+
+/// All of it: what the kernels' variant for this medium and this light asks for.
+MediumTableOptions table_options(const ResolvedCase& c, const Field& field, const Medium& medium,
+                                 LocalShading::Mode light);
+
+/// What an estimator is told of that before its tables are made.
+TableLayout table_layout(const ResolvedCase& c, const Medium& medium, const MediumTableOptions& options);
 
 }  // namespace dvrlab

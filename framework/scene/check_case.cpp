@@ -15,16 +15,25 @@ namespace dvrlab {
 namespace {
 
 /// A table that no run of this case could hold: said before any data is read.
-void check_tables(const ResolvedCase& c, const EstimatorPlugin& estimator, const Terms& terms) {
-  const auto bytes = static_cast<double>(estimator.bytes_needed(c.estimator.parameters, terms));
+void check_tables(const ResolvedCase& c, const EstimatorPlugin& estimator, const TableLayout& layout) {
+  const auto bytes = static_cast<double>(estimator.bytes_needed(c.estimator.parameters, layout));
   const bool given = !c.limits.is_null("memory");
   const double limit =
       given ? c.limits.json("memory").get<double>() : 0.75 * static_cast<double>(system_memory().available);
   if (bytes <= limit) return;
   char text[160];
-  std::snprintf(text, sizeof text, "its tables take %.1f MiB; %s %.1f MiB. Take a smaller table_size", bytes / 1048576,
-                given ? "limits.memory allows" : "75 % of what is available is", limit / 1048576);
+  std::snprintf(text, sizeof text, "its tables and their making take %.1f MiB; %s %.1f MiB. Take a smaller table_size",
+                bytes / 1048576, given ? "limits.memory allows" : "75 % of what is available is", limit / 1048576);
   throw InputError("estimator: " + c.estimator.type + ": " + text);
+}
+
+/// The light of the case's passes alone; none where they are wrong, which is said elsewhere.
+LocalShading::Mode light_of(const ResolvedCase& c, const Registry& registry) {
+  try {
+    return local_shading(c, registry, FormulaField(), false).mode;
+  } catch (const InputError&) {
+    return LocalShading::Mode::none;
+  }
 }
 
 }  // namespace
@@ -38,12 +47,15 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
     } catch (const NotSupported&) {  // a plugin that cannot be made: the verdict of the case when it runs
     }
   };
+  // Cameras, planes and lights that point nowhere do so in every box.
+  FormulaField box;
+  box.lo = {-1, -1, -1};
   part([&] {
     std::vector<std::string> notes;
     const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
     const auto& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
     refuse_impossible(c, medium, estimator.declaration(c.estimator.parameters));
-    check_tables(c, estimator, medium.terms());
+    check_tables(c, estimator, table_layout(c, medium, table_options(c, box, medium, light_of(c, registry))));
   });
   part([&] {
     const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")
@@ -58,9 +70,6 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
     const std::string sampler = c.data.parameters.text("sampler");
     if (!sampler.empty()) registry.get<SamplerPlugin>("sampler", sampler, "data.sampler");
   });
-  // Cameras, planes and lights that point nowhere do so in every box.
-  FormulaField box;
-  box.lo = {-1, -1, -1};
   KernelUnit unused;
   part([&] { add_camera(c.camera, box, 2, 2, unused); });
   for (const Section& plane : c.clip) part([&] { add_clipping({plane}, box, unused); });

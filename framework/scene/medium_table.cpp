@@ -157,6 +157,12 @@ void MediumLayout::write(const Columns& x, double* to) const {
   if (options_.rgb) *to++ = 0;
 }
 
+int fetches_of_point(const Medium& medium, const MediumTableOptions& o) {
+  const int groups = MediumLayout(medium, o).count();
+  // A table: value and difference. Nodes: a binary search, the interval, and three coefficients.
+  return o.nodes ? std::bit_width(std::bit_ceil(medium.interval.size())) + 3 * groups : 2 * groups;
+}
+
 void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& unit) {
   const MediumLayout layout(medium, o);
   unit.uniforms.insert(

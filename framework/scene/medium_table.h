@@ -45,6 +45,9 @@ class MediumLayout {
   int count_ = 0;
 };
 
+/// Fetches of four numbers with which a kernel finds the medium at a value.
+int fetches_of_point(const Medium& medium, const MediumTableOptions& options);
+
 /// Adds the uniforms medium_* and the buffers medium_table, medium_node, medium_node_poly, medium_shaded_sum.
 void add_medium(const Medium& medium, const MediumTableOptions& options, KernelUnit& unit);
 

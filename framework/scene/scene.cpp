@@ -5,6 +5,7 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
+#include "framework/interfaces/mesh.h"
 #include "framework/scene/bin_groups.h"
 #include "framework/scene/camera.h"
 #include "framework/scene/case_medium.h"
@@ -20,10 +21,6 @@ namespace dvrlab {
 
 namespace {
 
-LoadContext load_context(const ResolvedCase& c) {
-  return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
-}
-
 std::string field_key(const ResolvedCase& c) { return c.config.at("data").dump() + "|" + c.base_folder; }
 
 /// The sampler that reads the field: the config's, else the one that the data names.
@@ -34,12 +31,27 @@ std::string sampler_of(const ResolvedCase& c, const Field& field) {
 
 }  // namespace
 
+LoadContext load_context(const ResolvedCase& c) {
+  return {c.base_folder, c.data.parameters.text("nan_policy"), c.data.parameters.number("nan_value")};
+}
+
+void require_data(const ResolvedCase& c) {
+  const ParameterSet& p = c.data.parameters;
+  if (!p.boolean("optional") || !c.config["data"].contains("file")) return;
+  try {
+    resolve_path(p.text("file"), load_context(c), p.path_of("file"));
+  } catch (const InputError& e) {
+    throw NotSupported(e.what());
+  }
+}
+
 Precision precision_of(const ResolvedCase& c) { return static_cast<Precision>(c.top.choice_index("precision")); }
 
 std::shared_ptr<const Field> FieldCache::load(const ResolvedCase& c, const Registry& registry) {
   const std::string key = field_key(c);
   for (const auto& [known, field] : entries_)
     if (known == key) return field;
+  require_data(c);
   auto field = registry.get<DataPlugin>("data", c.data.type, "data.type").load(c.data.parameters, load_context(c));
   keep(c, field);
   return field;
@@ -53,23 +65,25 @@ void FieldCache::keep(const ResolvedCase& c, std::shared_ptr<const Field> field)
 void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Field& field, MemoryBill& memory) {
   const auto* grid = dynamic_cast<const GridField*>(&field);
   if (grid != nullptr) memory.state("data", static_cast<double>(grid->bytes()));
+  if (const auto* mesh = dynamic_cast<const MeshField*>(&field))
+    memory.state("data", static_cast<double>(mesh->bytes()));
   if (grid != nullptr && skips(c)) memory.state("skipping", static_cast<double>(skipping_bytes(grid->dims)));
   memory.state("transfer function table", static_cast<double>(c.optical_model.parameters.integer("tf_entries")) *
                                               medium_columns * (sizeof(float) + sizeof(double)));
-  std::vector<std::string> notes;
   const std::string sampler = sampler_of(c, field);
   memory.state("sampler '" + sampler + "'",
                static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler).bytes_needed(field)));
+  std::vector<std::string> notes;
+  const Medium medium = stored_medium(c, registry, field, notes);
+  const auto light = local_shading(c, registry, field, c.image.text("space") == "linear").mode;
+  const TableLayout layout = table_layout(c, medium, table_options(c, field, medium, light));
+  const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type);
   memory.state("estimator '" + c.estimator.type + "'",
-               static_cast<double>(
-                   registry.get<EstimatorPlugin>("estimator", c.estimator.type)
-                       .bytes_needed(c.estimator.parameters, model_medium(c, registry, 1, 0, 1, notes).terms())));
-  const auto bins =
-      registry.get<EstimatorPlugin>("estimator", c.estimator.type).declaration(c.estimator.parameters).mean_bins;
-  constexpr int most_groups = 8;
-  if (bins > 0)
-    memory.state("mean tables",
-                 static_cast<double>(mean_table_bytes(bins, most_groups, precision_of(c) == Precision::fp64)));
+               static_cast<double>(estimator.bytes_needed(c.estimator.parameters, layout)));
+  const EstimatorDeclaration declared = estimator.declaration(c.estimator.parameters);
+  if (declared.mean_bins > 0)
+    memory.state("mean tables", static_cast<double>(mean_table_bytes(declared.mean_bins, layout.groups + 1,
+                                                                     layout.precision == Precision::fp64)));
   for (const Section& s : c.illumination)
     memory.state(
         "illumination '" + s.type + "'",
@@ -108,14 +122,9 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const bool shaded = scene.medium.shaded();
   if (shaded && shading.mode == LocalShading::Mode::none)
     scene.notes.emplace_back("optical_model: shaded, but there is no illumination pass: rendered unlit (k = 1, b = 0)");
-  job.rgb = terms.rgb();
-  job.full = surfaces || terms.dirac() || shading.mode == LocalShading::Mode::prescribed ||
-             (shaded && shading.mode != LocalShading::Mode::none);
-  MediumTableOptions options = table_options(c, *field);
-  options.rgb = job.rgb;
-  options.full = job.full;
-  options.lit_particles = shading.mode == LocalShading::Mode::prescribed;
-  options.fold_shaded = !job.full;
+  const MediumTableOptions options = table_options(c, *field, scene.medium, shading.mode);
+  job.rgb = options.rgb;
+  job.full = options.full;
 
   job.frame.plugin = "frame";
   add_camera(c.camera, *field, job.width, job.height, job.frame);
@@ -135,6 +144,9 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.frame.uniforms.insert(
       job.frame.uniforms.end(),
       {Uniform::constant_integer("frame_samples_ends", declared.samples == EstimatorDeclaration::Samples::ends ? 1 : 0),
+       Uniform::constant_integer("frame_opaque_at", declared.front_only    ? 2
+                                                    : declared.pointwise() ? 1
+                                                                           : 0),
        Uniform::constant_integer("frame_cuts_diracs", declared.cuts_diracs ? 1 : 0),
        Uniform::constant_integer("frame_segment_shading", declared.shading),
        Uniform::constant_integer("frame_neighbours", declared.neighbours && surfaces ? 1 : 0),
@@ -144,6 +156,8 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.sampler = registry.get<SamplerPlugin>("sampler", sampler).bind(*field);
   job.sampler.plugin = sampler;
   job.sampler.folder = registry.find("sampler", sampler).folder;
+  job.frame.uniforms.push_back(
+      Uniform::constant_integer("frame_walks", walks(job.sampler) || samples_cells(c) ? 1 : 0));
   if (samples_cells(c))
     add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
               OccupiedBins(scene.medium, options, 0), job.frame);
@@ -166,9 +180,9 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
                     {&seen, options.lo, options.hi, scene.step, job.full,
                      shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder, &bins},
                     job.estimator);
-  // A value of the medium's table is two fetches per group; a mean six.
-  job.table_fetches = declared.points * (options.nodes ? 0 : 2 * layout.count()) + declared.means * 6 * layout.count() +
-                      job.estimator.fetches;
+  // A mean is six fetches per group; the bin of the next opaque value is one.
+  job.table_fetches = declared.points * fetches_of_point(before_opaque, options) + declared.means * 6 * layout.count() +
+                      (scene.medium.opaque.empty() ? 0 : 1) + job.estimator.fetches;
   end_phase("estimator tables");
   return scene;
 }

@@ -25,9 +25,16 @@ struct Scene {
   std::vector<std::string> notes;  // conversions, caps: what the log and the result file say
 };
 
+/// Where the case's data plugin finds files.
+LoadContext load_context(const ResolvedCase& c);
+
+/// Throws NotSupported where optional data is not there.
+void require_data(const ResolvedCase& c);
+
 /// Loads the case's data (through a cache by resolved data section, so that an experiment loads each file once).
 class FieldCache {
  public:
+  /// Throws NotSupported for optional data that is missing.
   std::shared_ptr<const Field> load(const ResolvedCase& c, const Registry& registry);
   /// What load() would load for this case, for who has it already.
   void keep(const ResolvedCase& c, std::shared_ptr<const Field> field);

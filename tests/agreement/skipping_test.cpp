@@ -30,6 +30,10 @@ json config(json estimator) {
 std::vector<json> estimators_of(const std::string& type) {
   std::vector<json> list = {{{"type", type}}};
   if (type == "direct" || type == "exact") return list;
+  if (type == "power_series") {
+    list.push_back({{"type", type}, {"table_size", 16}, {"variant", "published"}});
+    list.push_back({{"type", type}, {"table_size", 64}, {"variant", "published"}});
+  }
   for (int size : {5, 16, 64}) {
     list.push_back({{"type", type}, {"table_size", size}});
     if (type == "average") list.back()["rule"] = "exact_depth";
@@ -53,6 +57,17 @@ TEST_P(Skipping, ChangesNoBit) {
     const FrameResult without = render(c, targets().front());
     EXPECT_EQ(differing_values(with.image, without.image), 0u) << estimator.dump();
     EXPECT_EQ(without.counters.skipped, 0u);
+    if (estimator.value("table_size", 0) == 16) {
+      c["sampling"]["skipping"] = true;
+      for (const Target& target : targets()) {
+        try {
+          const FrameResult there = render(c, target);
+          EXPECT_EQ(differing_values(there.image, without.image), 0u) << estimator.dump() << target.name;
+          EXPECT_EQ(there.counters.skipped, with.counters.skipped) << target.name;
+        } catch (const NotSupported&) {  // counted by the tests of agreement
+        }
+      }
+    }
     if (std::min(estimator.value("table_size", 4096), estimator.value("depth_table_size", 4096)) >= 64) {
       EXPECT_GT(with.counters.skipped, 0u) << estimator.dump();
     }

@@ -41,6 +41,34 @@ std::string refusal(const json& config) {
   return "";
 }
 
+// What the papers explain their speeds by: fetches of four numbers per segment.
+TEST(Scene, CountsTableFetches) {
+  const auto fetches = [](const json& patch) { return scene_of(patched(small(), patch)).job.table_fetches; };
+  const json unlit = {{"optical_model", {{"shaded", false}}}};
+  const auto of = [&](const json& estimator, const json& more = json::object()) {
+    json patch = unlit;
+    patch["estimator"] = estimator;
+    patch.merge_patch(more);
+    return fetches(patch);
+  };
+  EXPECT_EQ(of({{"type", "direct"}}), 2) << "value and difference";
+  EXPECT_EQ(of({{"type", "average"}}), 4);
+  EXPECT_EQ(of({{"type", "approximative"}}), 6);
+  EXPECT_EQ(of({{"type", "power_series"}}), 6) << "order 1 without light is a mean";
+  EXPECT_EQ(of({{"type", "power_series"}, {"order", 3}, {"fallback", "none"}}), 2 + 2 + 2 * 3);
+  EXPECT_EQ(of({{"type", "power_series"}, {"order", 3}}), 2 + 2 + 2 * 3 + 6) << "the depth of the whole segment";
+  EXPECT_EQ(of({{"type", "preintegrated"}, {"table_size", 16}, {"lookup", "plain"}}), 3);
+  EXPECT_EQ(of({{"type", "preintegrated"}, {"table_size", 16}}), 3 + 6);
+  // One interval between two nodes, and two constant ones around it: the search over 4, its interval, a polynomial.
+  const json nodes = {{"optical_model", {{"tf", "nodes"}}}};
+  EXPECT_EQ(of({{"type", "direct"}}, nodes), 2 + 1 + 3);
+  EXPECT_EQ(of({{"type", "exact"}}, nodes), 2 + 1 + 3);
+  // Opaque values: where the next one lies.
+  const json opaque = {{"optical_model", {{"opacity", {{0.4, 0}, {0.4, 1}, {0.6, 1}, {0.6, 0}}}}}};
+  EXPECT_EQ(of({{"type", "approximative"}}, opaque), 7);
+  EXPECT_EQ(of({{"type", "approximative"}, {"opaque_prediction", "off"}}, opaque), 6);
+}
+
 TEST(Scene, MoreSegmentsThanAGpuMarchesAreRefused) {
   EXPECT_EQ(refusal(patched(small(), {{"sampling", {{"type", "uniform"}, {"step", 0.001}}}})), "");
   EXPECT_NE(refusal(patched(small(), {{"sampling", {{"type", "uniform"}, {"step", 0.0001}}}})).find("sampling.step"),

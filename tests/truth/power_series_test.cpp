@@ -231,6 +231,49 @@ TEST(PowerSeriesBounds, RandomMedia) {
   EXPECT_GT(above_order_one, 100);
 }
 
+// A ray: what the segments' bounds leave of it, (1 + M) M osc / 8 of the worst segment (docs/math G).
+TEST(PowerSeriesBounds, Rays) {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double worst = 0;
+  int above_segment = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    RandomSegment s = random_segment(random);
+    const double omega = 0.5 + 3 * uniform(random), phi = 6 * uniform(random), length = 3;
+    const int segments = 2 + trial % 23;
+    const double step = length / segments;
+    s.length = step;
+    const double deep = std::pow(10.0, 1.5 * uniform(random) - 1);
+    for (auto& tau : s.tau)
+      for (double& x : tau) x *= deep / step;
+    json config = s.config;
+    config["data"] = ray_config(
+        {{"field", "sinusoid"}, {"direction", {1, 0, 0}}, {"a", 0.5}, {"b", 0.49}, {"omega", omega}, {"phi", phi}},
+        length, step)["data"];
+    config["camera"]["t"] = {0, length};
+    config["sampling"]["step"] = step;
+    config["optical_model"]["extinction"] = stairs(s.tau, true);
+    double bound = 0;
+    for (int k = 0; k < segments; ++k) {
+      s.v0 = 0.5 + 0.49 * std::sin(omega * k * step + phi);
+      s.v1 = 0.5 + 0.49 * std::sin(omega * (k + 1) * step + phi);
+      const double M = s.depth();
+      for (std::size_t c = 0; c < 3; ++c) bound = std::max(bound, (1 + M) * M * s.oscillation(c) / 8);
+    }
+    const FrameImage truth = image64(config, {{"type", "exact"}});
+    const FrameImage r = image64(config, {{"type", "power_series"}, {"table_size", steps}});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double error = std::abs(r.radiance(c) - truth.radiance(c));
+      ASSERT_LE(error, bound + 1e-9) << trial << config.dump();
+      if (bound > 1e-6) worst = std::max(worst, error / bound);
+      above_segment += error > bound / 20;
+    }
+  }
+  std::printf("rays: worst error %.2f of the bound\n", worst);
+  EXPECT_GT(worst, 0.1) << "the bound says something";
+  EXPECT_GT(above_segment, 20);
+}
+
 // The fallbacks: a split keeps the higher orders' accuracy in deep slabs, order 1 its own bound.
 TEST(PowerSeriesBounds, FallbacksInDeepSlabs) {
   std::mt19937 random(7);
@@ -241,11 +284,9 @@ TEST(PowerSeriesBounds, FallbacksInDeepSlabs) {
     if (M < 1.5 || M > 12) continue;
     const FrameImage truth = image64(s.config, {{"type", "exact"}});
     const auto error = [&](const char* fallback, int order) {
-      const FrameImage r = image64(s.config, {{"type", "power_series"},
-                                              {"order", order},
-                                              {"fallback", fallback},
-                                              {"table_size", steps},
-                                              {"most_parts", 64}});
+      json estimator = {{"type", "power_series"}, {"order", order}, {"fallback", fallback}, {"table_size", steps}};
+      if (fallback == std::string("split")) estimator["most_parts"] = 64;
+      const FrameImage r = image64(s.config, estimator);
       double e = 0;
       for (std::size_t c = 0; c < 3; ++c) e = std::max(e, std::abs(r.radiance(c) - truth.radiance(c)));
       return e;
@@ -261,6 +302,43 @@ TEST(PowerSeriesBounds, FallbacksInDeepSlabs) {
               sum_none / sum_split);
   EXPECT_LT(4 * sum_split, sum_one);
   EXPECT_LT(sum_one, sum_none);
+}
+
+// What light does not change (emission, particles without an illumination of their own) counts once, whatever the
+// light's degree.
+TEST_P(PowerSeries, UnlitTermsCountOnce) {
+  json config = ray_config(ramp_field(0, 1, 1), 1, 1);
+  config["illumination"] = {
+      {{"type", "prescribed"}, {"m0", {1, 0.5, 1}}, {"m1", {0.2, 1, 1}}, {"k0", {1, 0.3, 0.5}}, {"k1", {0.4, 1, 1}}}};
+  const json shaded = {{"type", "absorption_emission"},
+                       {"shaded", true},
+                       {"tf", "nodes"},
+                       {"extinction", {{0, 0.2}, {1, 0.5}}},
+                       {"emission", {{0, 0.8, 0.1, 0.3}, {1, 0.1, 0.6, 0.3}}},
+                       {"color", {{0, 1, 0.5, 0.2}, {1, 0.3, 0.9, 0.7}}}};
+  const json particles = {{"type", "hybrid"},
+                          {"tf", "nodes"},
+                          {"dv_std", 0.5},
+                          {"surface", {{"opacity", {{0, 0}, {0.5, 0.2}, {1, 0}}}}},
+                          {"scattering", {{"opacity", {{0, 0.3}, {1, 0.1}}}, {"color", {{0, 1, 0.5, 0.2}}}}}};
+  for (const json& model : {shaded, particles}) {
+    for (const char* shading : {"constant", "linear", "nonlinear"}) {
+      for (int order : {1, 2, 4}) {
+        if (order > 1 && model == particles) continue;
+        for (bool lit : {true, false}) {
+          json c = config;
+          c["optical_model"] = model;
+          if (!lit) c.erase("illumination");
+          SKIP_WHEN_NOT_SUPPORTED({
+            const FrameImage truth = image(c, {{"type", "exact"}, {"shading", shading}});
+            const FrameImage r = image(c, {{"type", "power_series"}, {"order", order}, {"shading", shading}});
+            const double bounds[] = {0, 0.04, 8e-3, 0, 1e-4};
+            EXPECT_LE(largest_difference(r, truth), bounds[order]) << model["type"] << shading << order << lit;
+          })
+        }
+      }
+    }
+  }
 }
 
 // ---- what the paper prints ------------------------------------------------------------------------------------------
@@ -303,6 +381,14 @@ TEST_P(PowerSeries, PublishedPostClassification) {
     std::printf("published post-classification: %.2e %.2e %.2e at N = 16, 32, 64\n", e[0], e[1], e[2]);
     EXPECT_GE(e[0] / e[1], 1.7);
     EXPECT_LE(e[0] / e[1], 2.4);
+    // It sees an opaque value where a sample lies, and none between.
+    json spike = ray_config(ramp_field(0, 1, 1), 1, 0.25);
+    spike["optical_model"] = {{"type", "absorption_emission"}, {"color", {{0, 1, 1, 1}}}};
+    for (const auto& [at, seen] : {std::pair{0.4, false}, std::pair{0.48, true}}) {
+      spike["optical_model"]["opacity"] = {{at, 0}, {at, 1}, {at + 0.06, 1}, {at + 0.06, 0}};
+      const FrameImage r = image(spike, {{"type", "direct"}, {"variant", "published"}});
+      EXPECT_EQ(r.trans[0] == 0.0f, seen) << at;
+    }
     json one = ray_config(ramp_field(0.5, 0.5, 1), 1, 1);
     one["data"] = {{"type", "procedural"},
                    {"evaluate", "formula"},

@@ -55,7 +55,9 @@ json random_ray(std::uint32_t seed, bool one_color, const json& estimator, int s
 TEST_P(Properties, OneColourIsColourTimesOpacity) {
   for (const json& estimator :
        {json{{"type", "exact"}}, json{{"type", "approximative"}}, json{{"type", "preintegrated"}, {"table_size", 256}},
-        json{{"type", "preintegrated"}, {"table_size", 256}, {"lookup", "plain"}}}) {
+        json{{"type", "preintegrated"}, {"table_size", 256}, {"lookup", "plain"}}, json{{"type", "power_series"}},
+        json{{"type", "power_series"}, {"shading", "constant"}},
+        json{{"type", "power_series"}, {"shading", "nonlinear"}}}) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
       SKIP_WHEN_NOT_SUPPORTED({
         const FrameImage r = image(random_ray(seed, true, estimator, 11));
@@ -71,7 +73,8 @@ TEST_P(Properties, OneColourIsColourTimesOpacity) {
 // same image.
 TEST_P(Properties, UnitsDoNotMatter) {
   for (const json& estimator : {json{{"type", "direct"}}, json{{"type", "average"}}, json{{"type", "approximative"}},
-                                json{{"type", "preintegrated"}, {"table_size", 256}}, json{{"type", "exact"}}}) {
+                                json{{"type", "power_series"}}, json{{"type", "preintegrated"}, {"table_size", 256}},
+                                json{{"type", "exact"}}}) {
     const double length = 4, value = 8;  // powers of 2: not even the rounding changes
     json config = random_ray(3, false, estimator, 16);
     json other = config;
@@ -99,9 +102,11 @@ TEST_P(Properties, UnitsDoNotMatter) {
 TEST_P(Properties, NoMoreLightThanOpacity) {
   const json light = {
       {"type", "prescribed"}, {"m0", {1, 1, 1}}, {"m1", {1, 0.5, 1}}, {"k0", {1, 0.4, 1}}, {"k1", {0.7, 1, 1}}};
-  for (const json& estimator : {json{{"type", "direct"}}, json{{"type", "average"}},
-                                json{{"type", "average"}, {"rule", "mean_density"}}, json{{"type", "approximative"}},
-                                json{{"type", "preintegrated"}, {"table_size", 256}}, json{{"type", "exact"}}}) {
+  for (const json& estimator :
+       {json{{"type", "direct"}}, json{{"type", "average"}}, json{{"type", "average"}, {"rule", "mean_density"}},
+        json{{"type", "approximative"}}, json{{"type", "power_series"}},
+        json{{"type", "power_series"}, {"shading", "nonlinear"}}, json{{"type", "preintegrated"}, {"table_size", 256}},
+        json{{"type", "exact"}}}) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
       json config = random_ray(seed, false, estimator, 7);
       config["optical_model"]["color"] = {{0, 1, 0.2, 1}, {1, 1, 1, 1}};

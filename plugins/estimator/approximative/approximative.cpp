@@ -6,8 +6,7 @@ namespace dvrlab::approximative {
 namespace {
 
 constexpr Parameter parameters[] = {
-    {"table_size", ParameterType::integer, "", "4096", "[2,65536]", "Bins of the cumulative tables.", Affects::pixels,
-     "", "16"},
+    mean_table_size_key,
     {"alpha_over_m", ParameterType::boolean, "", "true", "",
      "Self-attenuation of the segment's mean source by (1 - exp(-M)) / M, M its depth; false: none, as Engel et al. "
      "2001, which oversaturates.",
@@ -19,12 +18,7 @@ constexpr Parameter parameters[] = {
 class Approximative : public EstimatorPlugin {
  public:
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
-    EstimatorDeclaration d;
-    d.samples = EstimatorDeclaration::Samples::ends;
-    d.shading = segment_shading(p);
-    d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
-    d.means = 1;
-    declare_prediction(p, d);
+    EstimatorDeclaration d = declaration_of_means(p);
     d.barycentre = p.text("shading") == "barycentre";
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;

@@ -16,6 +16,8 @@ constexpr Parameter parameters[] = {
      "barycentre).",
      Affects::pixels, R"({"estimator":{"rule":"exact_depth"}})", "16"},
     shading_with_barycentre_key,
+    opaque_prediction_key,
+    max_extinction_key,
     approximate_dirac_key};
 
 class Average : public EstimatorPlugin {
@@ -27,6 +29,7 @@ class Average : public EstimatorPlugin {
     d.barycentre = p.text("shading") == "barycentre";
     if (p.text("rule") == "exact_depth" || d.barycentre)
       d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
+    declare_prediction(p, d);
     d.points = 2;
     d.means = p.text("rule") == "exact_depth" ? 1 : 0;
     d.handles = Terms::every_column | Terms::rgb_bit;

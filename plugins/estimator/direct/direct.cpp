@@ -1,4 +1,5 @@
 // The `direct` estimator: nothing to prepare, the kernel asks the medium at each segment's centre.
+#include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
 #include "framework/interfaces/segment_keys.h"
 
@@ -19,10 +20,16 @@ const Parameter parameters[] = {
 
 class Direct : public EstimatorPlugin {
  public:
+  void check(const ParameterSet& p) const override {
+    if (p.boolean("total_variation") && p.text("variant") == "published")
+      throw InputError(p.path_of("total_variation") + ": variant \"published\" has no neighbours; leave it out");
+  }
+
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
     EstimatorDeclaration d;
     const bool published = p.text("variant") == "published";
     d.samples = published ? EstimatorDeclaration::Samples::ends : EstimatorDeclaration::Samples::centre;
+    d.front_only = published;
     d.neighbours = !published;
     d.points = 1;
     d.handles = Terms::every_column | Terms::rgb_bit;

@@ -23,6 +23,7 @@ class Exact : public EstimatorPlugin {
     d.samples = EstimatorDeclaration::Samples::ends;
     d.shading = segment_shading(p);
     d.needs_nodes = true;
+    d.points = 1;
     d.handles = Terms::every_column | Terms::rgb_bit | Terms::dirac_bit;
     return d;
   }

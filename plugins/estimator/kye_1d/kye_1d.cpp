@@ -7,24 +7,14 @@
 namespace dvrlab::kye_1d {
 namespace {
 
-constexpr Parameter parameters[] = {{"table_size", ParameterType::integer, "", "4096", "[2,65536]",
-                                     "Bins of the cumulative tables.", Affects::pixels, "", "16"},
-                                    shading_key,
-                                    opaque_prediction_key,
-                                    max_extinction_key};
+constexpr Parameter parameters[] = {mean_table_size_key, shading_key, opaque_prediction_key, max_extinction_key};
 
 class Kye1d : public EstimatorPlugin {
  public:
   EstimatorDeclaration declaration(const ParameterSet& p) const override {
-    EstimatorDeclaration d;
-    d.samples = EstimatorDeclaration::Samples::ends;
+    EstimatorDeclaration d = declaration_of_means(p);
     d.fixed_length = true;
-    d.shading = segment_shading(p);
-    d.mean_bins = d.cells = static_cast<int>(p.integer("table_size"));
-    d.means = 1;
-    declare_prediction(p, d);
-    d.handles = Terms::bit(Term::tau_l) | Terms::bit(Term::E) | Terms::bit(Term::P) | Terms::bit(Term::S_l) |
-                Terms::bit(Term::W_l) | Terms::rgb_bit;
+    d.handles = terms_per_length;
     return d;
   }
   /// The opacity 1 - exp(-step tau) of every bin in place of its depth step tau, and the colour with it.

@@ -37,6 +37,12 @@ constexpr Parameter parameters[] = {
 
 constexpr long long most_published_values = 512;
 
+/// The degree of the light factors in the position, by the modes of light_of_segment.
+int degree_of(const ParameterSet& p) {
+  constexpr int degrees[] = {0, 1, 0, 3};
+  return degrees[segment_shading(p)];
+}
+
 class Preintegrated : public EstimatorPlugin {
  public:
   void check(const ParameterSet& p) const override {
@@ -68,21 +74,24 @@ class Preintegrated : public EstimatorPlugin {
     return d;
   }
 
-  std::uint64_t bytes_needed(const ParameterSet& p, const Terms& terms) const override {
+  std::uint64_t bytes_needed(const ParameterSet& p, const TableLayout& layout) const override {
     Groups unused;
     const int n = static_cast<int>(p.integer("table_size"));
-    const TableRequest most =
-        request_of(terms, true, true, p.text("lookup") == "plain", p.text("shading") == "nonlinear", unused);
-    // Two tables are kept, beside them a published one, and every thread of a build has its own memory.
-    return (p.text("variant") == "corrected" ? 2 : 3) * Table::bytes(n, most) + (std::uint64_t{64} << 20);
+    const TableRequest request =
+        request_of(layout.terms, layout.full, layout.lit_particles, p.text("lookup") == "plain", degree_of(p), unused);
+    // Beside the table a published one, or an older one that may be kept; every thread of a build has its own memory.
+    const std::uint64_t bytes = Table::bytes(n, request);
+    const bool copies = p.text("variant") != "corrected" || p.text("update") == "partial";
+    const std::uint64_t beside = copies ? bytes : std::min(bytes, most_bytes_kept);
+    return bytes + beside + (std::uint64_t{64} << 20);
   }
 
   void prepare(const ParameterSet& p, const EstimatorContext& context, KernelUnit& unit) const override {
     const bool plain = p.text("lookup") == "plain";
     const int n = static_cast<int>(p.integer("table_size"));
     Groups groups;
-    const TableRequest request = request_of(context.medium->terms(), context.full, context.lit_particles, plain,
-                                            p.text("shading") == "nonlinear", groups);
+    const TableRequest request =
+        request_of(context.medium->terms(), context.full, context.lit_particles, plain, degree_of(p), groups);
     auto table = table_of(*context.medium, context.value_min, context.value_max, n, request, context.step,
                           p.text("update") == "partial", {context.folder});
     const auto variant = static_cast<Variant>(p.choice_index("variant"));

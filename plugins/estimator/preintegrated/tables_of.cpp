@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <list>
 #include <mutex>
+#include <span>
 
 namespace dvrlab::preintegrated {
 namespace {
@@ -32,10 +33,10 @@ class RequestWriter {
   }
   static OutputChannel total(int column) { return {Kind::total, column}; }
   static OutputChannel back(int column) { return {Kind::back, column}; }
-  /// Groups of the columns a, b, c, d (-1: none), weighted with w, and with `cubic` with w^2 and w^3.
-  void weighted_groups(int a, int b, int c, int d, bool cubic) {
-    for (Kind kind : {Kind::back, Kind::second, Kind::third}) {
-      if (kind != Kind::back && !cubic) break;
+  /// Groups of the columns a, b, c, d (-1: none), weighted with the powers 1 .. degree of w.
+  void weighted_groups(int a, int b, int c, int d, int degree) {
+    constexpr Kind kinds[] = {Kind::back, Kind::second, Kind::third};
+    for (Kind kind : std::span(kinds, static_cast<std::size_t>(degree))) {
       const auto output = [&](int column) { return column < 0 ? OutputChannel{} : OutputChannel{kind, column}; };
       group({output(a), output(b), output(c), output(d)});
     }
@@ -47,7 +48,7 @@ class RequestWriter {
 
 }  // namespace
 
-TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, bool cubic, Groups& groups) {
+TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool plain, int degree, Groups& groups) {
   TableRequest request;
   request.rgb_extinction = terms.rgb();
   request.ratio = !plain;
@@ -69,7 +70,7 @@ TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool 
       request.columns.push_back(highlight);
     }
     groups.shaded = write.group({total(s), total(s + 1), total(s + 2), total(w)});
-    write.weighted_groups(s, s + 1, s + 2, w, cubic);
+    write.weighted_groups(s, s + 1, s + 2, w, degree);
     if (terms.has(Term::E) || (terms.has(Term::P) && !lit_particles) || plain) {
       const int e = write.columns([&](SourceColumn& x) {
         x.E = true;
@@ -80,11 +81,12 @@ TableRequest request_of(const Terms& terms, bool full, bool lit_particles, bool 
     if (terms.has(Term::P) && lit_particles) {
       const int p = write.columns([](SourceColumn& x) { x.P = true; });
       groups.particles = write.group({total(p), total(p + 1), total(p + 2), none});
-      write.weighted_groups(p, p + 1, p + 2, -1, cubic);
+      write.weighted_groups(p, p + 1, p + 2, -1, degree);
     }
     if (request.rgb_extinction) {
-      groups.highlight = write.group({total(w + 1), total(w + 2), back(w + 1), back(w + 2)});
-      if (cubic)
+      groups.highlight = degree > 0 ? write.group({total(w + 1), total(w + 2), back(w + 1), back(w + 2)})
+                                    : write.group({total(w + 1), total(w + 2), none, none});
+      if (degree > 1)
         write.group({{Kind::second, w + 1}, {Kind::second, w + 2}, {Kind::third, w + 1}, {Kind::third, w + 2}});
     }
   }
@@ -109,6 +111,10 @@ std::shared_ptr<const Table> table_of(const Medium& medium, double lo, double hi
   for (const Built& b : built)
     if (fits(*b.table) && (partial || !b.updated) && !changed_cells(b.table->cells(), cells)) return b.table;
   while (built.size() >= kept) built.pop_back();  // room for the new one
+  const auto too_large = [](const Built& b) {
+    return Table::bytes(b.table->cells().grid.n, b.table->request()) > most_bytes_kept;
+  };
+  if (!partial) built.remove_if(too_large);
   std::shared_ptr<const Table> table;
   bool updated = false;
   for (const Built& b : built) {
