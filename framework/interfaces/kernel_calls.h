@@ -51,8 +51,8 @@ typedef struct DVR_OF(dvr_entries) {
   int face[DVR_MAX_WIDTH];
   int on[DVR_MAX_WIDTH]; /* lanes that take part: in find() all that search, in try_face() those that may enter the face */
   int width;
-  const void* kernel; /* the module's own */
-  void (*try_face)(const void* kernel, struct DVR_OF(dvr_entries) * rays, int face);
+  void* kernel; /* the module's own */
+  void (*try_face)(void* kernel, struct DVR_OF(dvr_entries) * rays, int face);
 } DVR_OF(dvr_entries);
 
 typedef struct DVR_OF(dvr_sampler_calls) {

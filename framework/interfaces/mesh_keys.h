@@ -18,6 +18,20 @@ inline constexpr Parameter mesh_gradient_key{
     "",
     R"("cell")"};
 
+inline constexpr Parameter mesh_array_key{
+    "array",
+    ParameterType::text,
+    "",
+    R"("")",
+    "",
+    "Name of the array; \"\": the one that the file names as active scalars, else the only one. Values of cells are averaged "
+    "to their points.",
+    Affects::pixels};
+
+inline constexpr Parameter mesh_component_key{
+    "component", ParameterType::text, "", R"("")", "",
+    "Of an array of vectors: \"0\", \"1\", ... or \"norm\"; \"\": the array has one component.", Affects::pixels};
+
 inline MeshGradient mesh_gradient(const ParameterSet& p) { return static_cast<MeshGradient>(p.choice_index("gradient")); }
 
 }  // namespace dvrlab

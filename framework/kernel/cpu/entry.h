@@ -27,18 +27,19 @@ KFN static entry_search search_of(const ray_entries* r) {
 KFN static entry_frame frame_of(const ray_entries* r) { return {load3(r->axes), load3(r->axes + 3), load3(r->axes + 6)}; }
 
 // The text behind it defines entry_hit name_hit(entry_frame f, vec3r o, inti face).
-#define ENTRY(name)                                                                    \
-  dvr_entry_surface name = this->surface(#name);                                       \
-  static void name##_try(const void* kernel, ray_entries* r, int face) {               \
-    const entry_search e = search_of(r);                                               \
-    const entry_hit h = static_cast<const DVR_STRUCT*>(kernel)->name##_hit(frame_of(r), load3(r->o), I(face)); \
-    const mask next = load(r->on) == I(1) && entry_is_next(e, h, I(face));             \
-    store(r->s, select(next, h.s, e.s));                                               \
-    store(r->face, select(next, I(face), e.face));                                     \
+#define ENTRY(name)                                                                              \
+  dvr_entry_surface name = this->surface(#name);                                                 \
+  static void name##_try(void* kernel, ray_entries* r, int face) {                               \
+    DVR_STRUCT* self = static_cast<DVR_STRUCT*>(kernel);                                         \
+    const entry_search e = search_of(r);                                                         \
+    const entry_hit h = self->name##_hit(frame_of(r), load3(r->o), I(face));                     \
+    const mask next = load(r->on) == I(1) && self->entry_is_next(e, h, I(face));                 \
+    store(r->s, select(next, h.s, e.s));                                                         \
+    store(r->face, select(next, I(face), e.face));                                               \
   }
 #define entry_next(name, f, o, d, e, on) this->find_entry(name, &DVR_STRUCT::name##_try, f, o, d, e, on)
 
-KFN entry_search find_entry(const dvr_entry_surface& surface, void (*try_face)(const void*, ray_entries*, int),
+KFN entry_search find_entry(const dvr_entry_surface& surface, void (*try_face)(void*, ray_entries*, int),
                             entry_frame f, vec3r o, vec3r d, entry_search e, mask on) {
   ray_entries rays;
   store_entries(&rays, f, o, d, e, on);

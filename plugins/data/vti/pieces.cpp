@@ -4,7 +4,7 @@
 
 #include "framework/interfaces/error.h"
 #include "framework/plugin/registry.h"
-#include "plugins/data/vti/vti_values.h"
+#include "framework/vtk_xml/array_values.h"
 
 namespace dvrlab::vti {
 namespace {

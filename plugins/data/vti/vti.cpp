@@ -8,7 +8,7 @@
 #include "framework/scene/mapped_file.h"
 #include "framework/scene/sha256.h"
 #include "plugins/data/vti/pieces.h"
-#include "plugins/data/vti/vti_values.h"
+#include "framework/vtk_xml/array_values.h"
 
 namespace dvrlab::vti {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugins/data/vti/blocks.h"
+#include "framework/vtk_xml/blocks.h"
 
 #include <lz4.h>
 #include <lzma.h>
@@ -9,7 +9,7 @@
 #include "framework/scene/gzip.h"
 #include "framework/scene/parallel.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 namespace {
 
 [[noreturn]] void bad_table(const std::string& where, const std::string& what) {
@@ -86,4 +86,4 @@ void unpack(const BlockTable& table, Compression compression, std::span<const st
   });
 }
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

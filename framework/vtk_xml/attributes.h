@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "plugins/data/vti/xml_scan.h"
+#include "framework/vtk_xml/xml_scan.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 
 /// Every error names file, line, element and attribute.
 class Attributes {
@@ -33,4 +33,4 @@ class Attributes {
   const std::string& name_;
 };
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

@@ -1,4 +1,4 @@
-#include "plugins/data/vti/attributes.h"
+#include "framework/vtk_xml/attributes.h"
 
 #include <charconv>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "framework/interfaces/error.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 namespace {
 
 template <class T>
@@ -72,4 +72,4 @@ unsigned long long Attributes::natural(const std::string& attribute, unsigned lo
   return x;
 }
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

@@ -1,4 +1,4 @@
-#include "plugins/data/vti/ascii.h"
+#include "framework/vtk_xml/ascii.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 
 #include "framework/interfaces/error.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 namespace {
 
 template <class T>
@@ -18,7 +18,7 @@ void parse_all(std::span<const std::byte> text, T* out, std::uint64_t count, con
     skip_space();
     if (at == end && i == count) return;
     if (at == end || i == count)
-      throw InputError(where + ": its extent needs " + std::to_string(count) + " numbers, its text holds " +
+      throw InputError(where + ": it needs " + std::to_string(count) + " numbers, its text holds " +
                        (at == end ? std::to_string(i) : "more"));
     const char* const word_end = std::find_if(at, end, [](unsigned char c) { return std::isspace(c); });
     const auto [stop, error] = std::from_chars(*at == '+' ? at + 1 : at, word_end, out[i]);
@@ -34,7 +34,7 @@ void parse_all(std::span<const std::byte> text, T* out, std::uint64_t count, con
 std::shared_ptr<const void> read_ascii(std::span<const std::byte> text, SourceType type, std::uint64_t count,
                                        const std::string& where) {
   if ((text.size() + 1) / 2 < count)  // a digit and a blank each
-    throw InputError(where + ": its extent needs " + std::to_string(count) + " numbers, its text of " +
+    throw InputError(where + ": it needs " + std::to_string(count) + " numbers, its text of " +
                      std::to_string(text.size()) + " characters cannot hold them");
   const auto memory = allocate_voxels(count * bytes_of(type), where);
   const auto parse = [&]<class T>(T*) { parse_all(text, static_cast<T*>(memory.get()), count, where); };
@@ -73,4 +73,4 @@ std::shared_ptr<const void> read_ascii(std::span<const std::byte> text, SourceTy
   return memory;
 }
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 
 /// A start tag.
 struct XmlElement {
@@ -30,4 +30,4 @@ class XmlVisitor {
 /// none of the formats needs; passes on what the visitor throws.
 void scan_xml(std::span<const std::byte> file, const std::string& name, XmlVisitor& visitor);
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

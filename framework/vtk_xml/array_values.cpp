@@ -1,4 +1,4 @@
-#include "plugins/data/vti/vti_values.h"
+#include "framework/vtk_xml/array_values.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "framework/interfaces/error.h"
-#include "plugins/data/vti/ascii.h"
-#include "plugins/data/vti/base64.h"
-#include "plugins/data/vti/blocks.h"
+#include "framework/vtk_xml/ascii.h"
+#include "framework/vtk_xml/base64.h"
+#include "framework/vtk_xml/blocks.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 namespace {
 
 // The bytes of a binary array in the order in which they stand, decoded where they are text.
@@ -36,11 +36,11 @@ class Source {
 };
 
 [[noreturn]] void truncated(const std::string& where, std::uint64_t wanted, std::uint64_t found) {
-  throw InputError(where + ": its extent needs " + std::to_string(wanted) + " bytes, the file holds " +
+  throw InputError(where + ": it needs " + std::to_string(wanted) + " bytes, the file holds " +
                    std::to_string(found) + "; it is cut off or its header is wrong");
 }
 
-std::uint64_t read_word(Source& source, const VtiHeader& header, const std::string& where) {
+std::uint64_t read_word(Source& source, const XmlFile& header, const std::string& where) {
   std::array<std::byte, 8> bytes{};
   const auto word = std::span(bytes).first(static_cast<std::size_t>(header.word));
   if (source.read(word) < word.size())
@@ -51,7 +51,7 @@ std::uint64_t read_word(Source& source, const VtiHeader& header, const std::stri
   return x;
 }
 
-Source open(const VtiHeader& header, const DataArray& array, const std::string& where) {
+Source open(const XmlFile& header, const DataArray& array, const std::string& where) {
   if (array.format == Format::inline_base64) return {array.text, true, where};
   if (array.offset > header.appended.size())
     throw InputError(where + ": its offset " + std::to_string(array.offset) + " lies beyond the " +
@@ -59,7 +59,7 @@ Source open(const VtiHeader& header, const DataArray& array, const std::string& 
   return {header.appended.subspan(array.offset), header.appended_base64, where};
 }
 
-std::shared_ptr<const void> read_stored(const VtiHeader& header, Source source, std::uint64_t wanted,
+std::shared_ptr<const void> read_stored(const XmlFile& header, Source source, std::uint64_t wanted,
                                         const std::shared_ptr<const MappedFile>& file, const std::string& where) {
   const std::uint64_t announced = read_word(source, header, where);
   if (announced != wanted) truncated(where, wanted, announced);
@@ -71,7 +71,7 @@ std::shared_ptr<const void> read_stored(const VtiHeader& header, Source source, 
   return memory;
 }
 
-std::shared_ptr<const void> read_compressed(const VtiHeader& header, Source source, std::uint64_t wanted,
+std::shared_ptr<const void> read_compressed(const XmlFile& header, Source source, std::uint64_t wanted,
                                             const std::string& where) {
   const std::uint64_t count = read_word(source, header, where), word = static_cast<std::uint64_t>(header.word);
   if (source.most() / word < 2 || count > source.most() / word - 2)
@@ -107,7 +107,7 @@ SourceType type_of(const DataArray& array, const std::string& where) {
   return found->second;
 }
 
-SourceVoxels read_values(const VtiHeader& header, const DataArray& array, std::uint64_t count,
+SourceVoxels read_values(const XmlFile& header, const DataArray& array, std::uint64_t count,
                          const std::shared_ptr<const MappedFile>& file, const std::string& where) {
   const SourceType type = type_of(array, where);
   if (array.format == Format::ascii) return {type, false, read_ascii(array.text, type, count, where)};
@@ -118,7 +118,7 @@ SourceVoxels read_values(const VtiHeader& header, const DataArray& array, std::u
   return {type, header.swap, read_compressed(header, std::move(source), wanted, where)};
 }
 
-std::uint64_t read_values_bytes(const VtiHeader& header, const DataArray& array, std::uint64_t count,
+std::uint64_t read_values_bytes(const XmlFile& header, const DataArray& array, std::uint64_t count,
                                 std::uint64_t file_size) {
   const bool text = array.format == Format::inline_base64 || header.appended_base64;
   const bool packed = array.format != Format::ascii && header.compression != Compression::none;
@@ -126,4 +126,4 @@ std::uint64_t read_values_bytes(const VtiHeader& header, const DataArray& array,
   return count * bytes_of(type_of(array, array.name)) + (packed && text ? file_size / 4 * 3 : 0);
 }
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

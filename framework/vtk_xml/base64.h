@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 
 /// Reads on from where it stands. White space is skipped; several encoded pieces may follow each other, each with its
 /// own padding, as VTK writes the table and the blocks of compressed data.
@@ -28,4 +28,4 @@ class Base64 {
   std::size_t bytes_ = 0, taken_ = 0;  // of decoded_
 };
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

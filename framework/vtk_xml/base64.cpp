@@ -1,4 +1,4 @@
-#include "plugins/data/vti/base64.h"
+#include "framework/vtk_xml/base64.h"
 
 #include <openssl/evp.h>
 
@@ -8,7 +8,7 @@
 
 #include "framework/interfaces/error.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 
 std::size_t Base64::read(std::span<std::byte> out) {
   std::size_t done = 0;
@@ -47,4 +47,4 @@ bool Base64::refill() {
   return true;
 }
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "plugins/data/vti/vti_header.h"
+#include "framework/vtk_xml/vtk_xml.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 
 /// Where each block's compressed bytes and numbers lie, from the start of the compressed bytes and of the array.
 struct BlockTable {
@@ -30,4 +30,4 @@ BlockTable read_table(const std::vector<std::uint64_t>& sizes, Compression compr
 void unpack(const BlockTable& table, Compression compression, std::span<const std::byte> packed,
             std::span<std::byte> out, const std::string& where);
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml

@@ -1,4 +1,4 @@
-#include "plugins/data/vti/xml_scan.h"
+#include "framework/vtk_xml/xml_scan.h"
 
 #include <expat.h>
 
@@ -8,7 +8,7 @@
 
 #include "framework/interfaces/error.h"
 
-namespace dvrlab::vti {
+namespace dvrlab::vtk_xml {
 namespace {
 
 using Parser = std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)>;
@@ -78,4 +78,4 @@ void scan_xml(std::span<const std::byte> file, const std::string& name, XmlVisit
   }
 }
 
-}  // namespace dvrlab::vti
+}  // namespace dvrlab::vtk_xml
