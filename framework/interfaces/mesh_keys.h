@@ -32,6 +32,17 @@ inline constexpr Parameter mesh_component_key{
     "component", ParameterType::text, "", R"("")", "",
     "Of an array of vectors: \"0\", \"1\", ... or \"norm\"; \"\": the array has one component.", Affects::pixels};
 
+inline constexpr Parameter mesh_tolerance_key{
+    "tolerance",
+    ParameterType::number,
+    "part of the value range",
+    "0.001",
+    "(0,1]",
+    "Cells in which the scalar is not linear are passed in segments that differ from it by so much at the most.",
+    Affects::pixels,
+    "",
+    "0.1"};
+
 inline MeshGradient mesh_gradient(const ParameterSet& p) { return static_cast<MeshGradient>(p.choice_index("gradient")); }
 
 }  // namespace dvrlab

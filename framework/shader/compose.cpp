@@ -30,7 +30,7 @@ constexpr Part part_list[] = {
     {From::framework, "shading.kernel"},
     {From::framework, "segment.kernel"},
     {From::framework, "volume.kernel"},
-    {From::entry, "entry.kernel"},
+    {From::entry, "tetrahedra.kernel"},
     {From::sampler, ""},
     {From::framework, "steps.kernel"},
     {From::framework, "stream.glsl"},
@@ -150,14 +150,18 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
       case From::generated:
         name = "generated declarations", text = generated;
         break;
-      case From::entry:
+      case From::entry: {
+        // A walk through tetrahedra, for samplers that have some.
         if (job.sampler.surfaces.empty()) continue;
-        name = part.file, text = read_text(job.kernel_folder + "/" + name);
+        const std::string line = "#line 1 " + std::to_string(shader.sources.size()) + "\n";
+        name = part.file, text = read_text(job.kernel_folder + "/entry.kernel");
         for (const EntrySurface& surface : job.sampler.surfaces) text += entry_declaration(surface);
+        text += line + read_text(job.kernel_folder + "/" + name);
+        for (const EntrySurface& surface : job.sampler.surfaces) text += entry_definition(surface);
         break;
+      }
       case From::sampler:
         name = job.sampler.folder + "/" + job.sampler.plugin + ".kernel", text = read_text(name);
-        for (const EntrySurface& surface : job.sampler.surfaces) text += entry_definition(surface);
         break;
       case From::estimator:
         name = job.estimator.folder + "/" + job.estimator.plugin + ".kernel", text = read_text(name);

@@ -23,11 +23,14 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/cells.kernel"
 #undef VOXELS
 #else
+#if DVR_TETRAHEDRA
 #include "framework/kernel/entry.kernel"
 #include "framework/kernel/cpu/entry.h"
-#include DVR_KERNEL_FILE
+#include "framework/kernel/tetrahedra.kernel"
 #undef ENTRY
 #undef entry_next
+#endif
+#include DVR_KERNEL_FILE
 #endif
   // clang-format on
 

@@ -244,6 +244,7 @@ std::vector<double> points_of_cells(const MeshField& mesh, std::span<const doubl
   std::vector<std::uint32_t> count(mesh.point.size(), 0);
   for (std::uint64_t c = 0; c < mesh.cells(); ++c)
     for (const std::uint32_t n : mesh.nodes_of(c)) {
+      if (n >= sum.size()) continue;  // finish_mesh refuses it by name
       sum[n] += values[c];
       ++count[n];
     }
@@ -263,7 +264,8 @@ void finish_mesh(MeshField& mesh, const std::string& nan_policy, double nan_valu
   });
   if (mesh.cells() == 0) throw InputError(mesh.source + ": no cell has a volume");
   drop_unused_points(mesh);
-  mesh.sampler = "mesh";
+  const bool linear = std::all_of(mesh.shape.begin(), mesh.shape.end(), [](CellShape s) { return info_of(s).linear(); });
+  mesh.sampler = linear ? "mesh" : "curved_mesh";
   judge_cells(mesh);
   set_frame(mesh);
   set_range(mesh);

@@ -24,6 +24,13 @@ constexpr Parameter mesh_gradient_key_of_procedural = [] {
   return key;
 }();
 
+constexpr Parameter mesh_tolerance_key_of_procedural = [] {
+  Parameter key = mesh_tolerance_key;
+  key.only_with = "evaluate=mesh";
+  key.live_in = R"({"data":{"evaluate":"mesh","size":[5,5,5],"cells":"hexahedra"},"estimator":{"type":"average"}})";
+  return key;
+}();
+
 constexpr Parameter parameters[] = {
     {"field", choice, "", R"("marschner_lobb")",
      "constant|ramp|radial|sphere|marschner_lobb|sinusoid|polynomial|polyline|march_table",
@@ -41,6 +48,7 @@ constexpr Parameter parameters[] = {
     {"jitter_seed", integer, "", "1", "[0,4294967295]", "Which of the ways to move them.", Affects::pixels,
      R"({"data":{"evaluate":"mesh","size":[5,5,5],"jitter":0.2}})", "2", "evaluate=mesh"},
     mesh_gradient_key_of_procedural,
+    mesh_tolerance_key_of_procedural,
     {"bounds", json, "world", "[[-1,-1,-1],[1,1,1]]", "", "Lower and upper corner of the box, [[x,y,z],[x,y,z]].",
      Affects::pixels, "{}", "[[-1,-1,-1],[1,1,0.5]]", "",
      R"({"type":"array","minItems":2,"maxItems":2,"items":{"type":"array","minItems":3,"maxItems":3,"items":{"type":"number"}}})"},
@@ -132,6 +140,7 @@ std::shared_ptr<const Field> mesh_field(const FormulaParams& f, const ParameterS
   auto mesh = std::make_shared<MeshField>(fill_mesh(f, mesh_plan(p)));
   mesh->source = describe(p) + " of " + p.text("cells");
   mesh->gradient = mesh_gradient(p);
+  mesh->tolerance = p.number("tolerance");
   mesh->sha256 = sha256({std::as_bytes(std::span(mesh->point)), std::as_bytes(std::span(mesh->value)),
                          std::as_bytes(std::span(mesh->node))});
   finish_mesh(*mesh, context.nan_policy, context.nan_value);

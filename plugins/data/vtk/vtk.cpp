@@ -23,7 +23,7 @@ constexpr Parameter file_key{"file",
                              "{}",
                              R"("../../../data/cells.vtk")"};
 
-constexpr Parameter parameters[] = {file_key, mesh_array_key, mesh_component_key, mesh_gradient_key};
+constexpr Parameter parameters[] = {file_key, mesh_array_key, mesh_component_key, mesh_gradient_key, mesh_tolerance_key};
 
 struct Opened {
   std::string name;
@@ -78,6 +78,7 @@ class Vtk : public DataPlugin {
     mesh->source = o.name;
     mesh->sha256 = sha256({o.file->bytes()});
     mesh->gradient = mesh_gradient(p);
+    mesh->tolerance = p.number("tolerance");
     mesh->notes.push_back("world frame: the file's own coordinates");
     std::vector<MeshArray> arrays;
     for (const DataArray& a : f.arrays) arrays.push_back({a.name, a.components, a.cells, a.active});

@@ -26,7 +26,7 @@ constexpr Parameter file_key{"file",
                              "{}",
                              R"("../../../data/cells.vtu")"};
 
-constexpr Parameter parameters[] = {file_key, mesh_array_key, mesh_component_key, mesh_gradient_key};
+constexpr Parameter parameters[] = {file_key, mesh_array_key, mesh_component_key, mesh_gradient_key, mesh_tolerance_key};
 
 struct Opened {
   std::string name;
@@ -117,6 +117,7 @@ class Vtu : public DataPlugin {
     mesh->source = o.name;
     mesh->sha256 = sha256({o.file->bytes()});
     mesh->gradient = mesh_gradient(p);
+    mesh->tolerance = p.number("tolerance");
     const std::vector<MeshArray> arrays = arrays_of(o.header.pieces.front());
     const MeshChoice choice = choose_mesh_array(arrays, p, o.name);
     const MeshArray& chosen = arrays[choice.array];
