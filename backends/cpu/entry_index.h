@@ -1,4 +1,5 @@
-// Embree finds the faces of a surface that a ray may enter; the kernel's own text judges them (framework/kernel/entry.kernel).
+// Embree finds the faces of a surface that a ray may enter; the kernel's own text judges them
+// (framework/kernel/entry.kernel).
 #pragma once
 
 #include <memory>
@@ -8,8 +9,8 @@
 
 namespace dvrlab::cpu {
 
-/// A bounding volume hierarchy over the faces' boxes, which are a little larger than the faces: what rounding does to the
-/// place of a ray never hides a face from the kernel. Thread-safe once built.
+/// A bounding volume hierarchy over the faces' boxes, which are a little larger than the faces: what rounding does to
+/// the place of a ray never hides a face from the kernel. Thread-safe once built.
 class EntryIndex {
  public:
   explicit EntryIndex(const EntrySurface& surface);

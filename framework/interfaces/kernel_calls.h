@@ -38,8 +38,8 @@ typedef struct DVR_OF(dvr_chunk) {
   int n;                                          /* rows in use */
 } DVR_OF(dvr_chunk);
 
-/* Rays that look for the next face of a surface (framework/kernel/entry.kernel). try_face judges one face for every lane
- * with `on`, and keeps it in s and face where it is the next one so far. */
+/* Rays that look for the next face of a surface (framework/kernel/entry.kernel). try_face judges one face for every
+ * lane with `on`, and keeps it in s and face where it is the next one so far. */
 typedef struct DVR_OF(dvr_entries) {
   alignas(64) DVR_REAL o[3][DVR_MAX_WIDTH]; /* sampler coordinates of the entry point */
   DVR_REAL d[3][DVR_MAX_WIDTH];             /* sampler coordinates per arc length */
@@ -49,7 +49,8 @@ typedef struct DVR_OF(dvr_entries) {
   int after_face[DVR_MAX_WIDTH];
   DVR_REAL s[DVR_MAX_WIDTH]; /* the next face: arc position and index, 3e38 and -1 for none */
   int face[DVR_MAX_WIDTH];
-  int on[DVR_MAX_WIDTH]; /* lanes that take part: in find() all that search, in try_face() those that may enter the face */
+  int on[DVR_MAX_WIDTH]; /* lanes that take part: in find() all that search, in try_face() those that may enter the face
+                          */
   int width;
   void* kernel; /* the module's own */
   void (*try_face)(void* kernel, struct DVR_OF(dvr_entries) * rays, int face);

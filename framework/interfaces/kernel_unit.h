@@ -44,8 +44,8 @@ struct Buffer {
   std::uint64_t bytes64() const { return data64 ? 2 * bytes() : 0; }
 };
 
-/// A surface of triangles of which kernels ask which one a ray enters next (framework/kernel/entry.kernel). Backends answer
-/// with a hierarchy of their own, which only chooses the faces that the kernel's text judges.
+/// A surface of triangles of which kernels ask which one a ray enters next (framework/kernel/entry.kernel). Backends
+/// answer with a hierarchy of their own, which only chooses the faces that the kernel's text judges.
 struct EntrySurface {
   std::string name;
   /// Corners of each face in sampler coordinates.

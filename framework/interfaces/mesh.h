@@ -12,15 +12,7 @@
 namespace dvrlab {
 
 /// Shapes of cells. Nodes are in VTK's order: corners first, then the middles of edges.
-enum class CellShape : std::uint8_t {
-  tetrahedron,
-  hexahedron,
-  wedge,
-  pyramid,
-  tetrahedron10,
-  hexahedron20,
-  wedge15
-};
+enum class CellShape : std::uint8_t { tetrahedron, hexahedron, wedge, pyramid, tetrahedron10, hexahedron20, wedge15 };
 inline constexpr int cell_shapes = 7;
 
 struct CellShapeInfo {
@@ -48,17 +40,17 @@ struct MeshFaults {
 struct Tetrahedra;  // framework/scene/mesh/tetrahedra.h
 
 /// What normals follow: the gradient of each cell; or gradients at the corners, the mean of those at the centres of the
-/// cells around, linear between; the mean may weigh a cell with the inverse of its centre's distance (Williams and Max 1992,
-/// section 3.2).
+/// cells around, linear between; the mean may weigh a cell with the inverse of its centre's distance (Williams and Max
+/// 1992, section 3.2).
 enum class MeshGradient { cell, vertex, vertex_inverse_distance };
 
 /// A scalar at the nodes of a mesh. Sampler coordinates: the box of the nodes, centred, half its diagonal is 1.
 struct MeshField : Field {
-  std::vector<Vector3> point;           // world coordinates
-  std::vector<double> value;            // physical, one per point
-  std::vector<CellShape> shape;         // one per cell
-  std::vector<std::uint64_t> first;     // where a cell's nodes begin in `node`; one more than cells
-  std::vector<std::uint32_t> node;      // indices of points
+  std::vector<Vector3> point;        // world coordinates
+  std::vector<double> value;         // physical, one per point
+  std::vector<CellShape> shape;      // one per cell
+  std::vector<std::uint64_t> first;  // where a cell's nodes begin in `node`; one more than cells
+  std::vector<std::uint32_t> node;   // indices of points
   MeshFaults faults;
   MeshGradient gradient = MeshGradient::vertex_inverse_distance;
   double tolerance = 1e-3;  // of values in cells that are not linear, as a part of the field's range
@@ -75,7 +67,8 @@ struct MeshField : Field {
 /// Completes a mesh whose points, values, cells and source are set: checks it, mends what MeshFaults lists (said aloud
 /// in its notes), and sets sampler, to_world, lo, hi, voxel (the mean length of an edge), slope, intercept, stored_min
 /// and stored_max (stored values are 0 to 1). Applies the nan policy to values ("error", or "replace").
-/// Throws InputError: no cells, an index beyond the points, a coordinate or (policy "error") a value that is not finite.
+/// Throws InputError: no cells, an index beyond the points, a coordinate or (policy "error") a value that is not
+/// finite.
 void finish_mesh(MeshField& mesh, const std::string& nan_policy, double nan_value);
 
 /// Cell values to points: the mean over the cells of a point. `values`: one per cell.

@@ -12,25 +12,31 @@ inline constexpr Parameter mesh_gradient_key{
     "",
     R"("vertex_inverse_distance")",
     "cell|vertex|vertex_inverse_distance",
-    "What the normals of a mesh follow: the gradient of each cell; or those at the corners, the mean of the cells around, "
+    "What the normals of a mesh follow: the gradient of each cell; or those at the corners, the mean of the cells "
+    "around, "
     "linear between, which may weigh a cell with the inverse of its centre's distance.",
     Affects::pixels,
     "",
     R"("cell")"};
 
-inline constexpr Parameter mesh_array_key{
-    "array",
+inline constexpr Parameter mesh_array_key{"array",
+                                          ParameterType::text,
+                                          "",
+                                          R"("")",
+                                          "",
+                                          "Name of the array; \"\": the one that the file names as active scalars, "
+                                          "else the only one. Values of cells are averaged "
+                                          "to their points.",
+                                          Affects::pixels};
+
+inline constexpr Parameter mesh_component_key{
+    "component",
     ParameterType::text,
     "",
     R"("")",
     "",
-    "Name of the array; \"\": the one that the file names as active scalars, else the only one. Values of cells are averaged "
-    "to their points.",
+    "Of an array of vectors: \"0\", \"1\", ... or \"norm\"; \"\": the array has one component.",
     Affects::pixels};
-
-inline constexpr Parameter mesh_component_key{
-    "component", ParameterType::text, "", R"("")", "",
-    "Of an array of vectors: \"0\", \"1\", ... or \"norm\"; \"\": the array has one component.", Affects::pixels};
 
 inline constexpr Parameter mesh_tolerance_key{
     "tolerance",
@@ -43,6 +49,8 @@ inline constexpr Parameter mesh_tolerance_key{
     "",
     "0.1"};
 
-inline MeshGradient mesh_gradient(const ParameterSet& p) { return static_cast<MeshGradient>(p.choice_index("gradient")); }
+inline MeshGradient mesh_gradient(const ParameterSet& p) {
+  return static_cast<MeshGradient>(p.choice_index("gradient"));
+}
 
 }  // namespace dvrlab

@@ -49,8 +49,8 @@ class TreeBuilder {
         from[a] = std::min(from[a], centre(face, a));
         to[a] = std::max(to[a], centre(face, a));
       }
-    box_.insert(box_.end(), {lo[0] - margin, lo[1] - margin, lo[2] - margin, 0, hi[0] + margin, hi[1] + margin,
-                             hi[2] + margin, 0});
+    box_.insert(box_.end(),
+                {lo[0] - margin, lo[1] - margin, lo[2] - margin, 0, hi[0] + margin, hi[1] + margin, hi[2] + margin, 0});
     const bool leaf = end - begin <= leaf_faces;
     node_.insert(node_.end(), {0, begin, leaf ? end - begin : 0, 0});
     if (!leaf) {

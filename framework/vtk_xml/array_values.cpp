@@ -36,8 +36,8 @@ class Source {
 };
 
 [[noreturn]] void truncated(const std::string& where, std::uint64_t wanted, std::uint64_t found) {
-  throw InputError(where + ": it needs " + std::to_string(wanted) + " bytes, the file holds " +
-                   std::to_string(found) + "; it is cut off or its header is wrong");
+  throw InputError(where + ": it needs " + std::to_string(wanted) + " bytes, the file holds " + std::to_string(found) +
+                   "; it is cut off or its header is wrong");
 }
 
 std::uint64_t read_word(Source& source, const XmlFile& header, const std::string& where) {

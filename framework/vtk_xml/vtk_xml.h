@@ -37,7 +37,8 @@ struct XmlFile {
 class FileReader : public XmlVisitor {
  public:
   /// `type`: what the root must be ("ImageData"); `name`: the file, for messages.
-  FileReader(std::span<const std::byte> file, const std::string& name, XmlFile& out) : file_(file), name_(name), out_(out) {}
+  FileReader(std::span<const std::byte> file, const std::string& name, XmlFile& out)
+      : file_(file), name_(name), out_(out) {}
 
   bool open(const XmlElement& e) final;
   void close(const std::string& element, std::size_t begin, std::size_t end) final;
@@ -45,8 +46,8 @@ class FileReader : public XmlVisitor {
  protected:
   /// Judges the root's attribute `type`; throws InputError by a.fail().
   virtual void check_type(const std::string& type, const Attributes& a) = 0;
-  /// The list in which the array at this place ("/VTKFile/ImageData/Piece/PointData/DataArray") is kept; null: it is not
-  /// read.
+  /// The list in which the array at this place ("/VTKFile/ImageData/Piece/PointData/DataArray") is kept; null: it is
+  /// not read.
   virtual std::vector<DataArray>* arrays_at(const std::string& path) = 0;
   /// An element that is neither root, array nor appended section.
   virtual void element(const std::string& path, const Attributes& a) = 0;
@@ -60,10 +61,10 @@ class FileReader : public XmlVisitor {
   std::span<const std::byte> file_;
   const std::string& name_;
   XmlFile& out_;
-  std::vector<std::string> path_;            // of the open elements: "/VTKFile", "/VTKFile/ImageData"
-  std::string array_path_;                   // of the array that is open, "" for none
-  std::vector<DataArray>* open_ = nullptr;   // its list
-  std::size_t text_begin_ = 0;               // where its text begins
+  std::vector<std::string> path_;           // of the open elements: "/VTKFile", "/VTKFile/ImageData"
+  std::string array_path_;                  // of the array that is open, "" for none
+  std::vector<DataArray>* open_ = nullptr;  // its list
+  std::size_t text_begin_ = 0;              // where its text begins
 };
 
 }  // namespace dvrlab::vtk_xml

@@ -253,7 +253,8 @@ DVR_INLINE vec4r fetch4(table4 b, inti i) {
 DVR_INLINE vec4i fetchi4(tablei4 b, inti i) {
   const lane_index n(i);
   const float* p = reinterpret_cast<const float*>(b.data);
-  const vec4r r = transpose4(block4(p, n, 0, 4, 0), block4(p, n, 1, 4, 0), block4(p, n, 2, 4, 0), block4(p, n, 3, 4, 0));
+  const vec4r r =
+      transpose4(block4(p, n, 0, 4, 0), block4(p, n, 1, 4, 0), block4(p, n, 2, 4, 0), block4(p, n, 3, 4, 0));
   return {as_int(r.x), as_int(r.y), as_int(r.z), as_int(r.w)};
 }
 /// Entries are pairs (value, difference to the next): value + difference * w, interpolated before the transpose,

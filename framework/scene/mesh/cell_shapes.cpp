@@ -7,7 +7,8 @@ using Face = std::array<std::int8_t, 4>;
 using Edge = std::array<std::int8_t, 2>;
 
 constexpr Face tetrahedron_faces[] = {{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}};
-constexpr Face hexahedron_faces[] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+constexpr Face hexahedron_faces[] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
+                                     {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 constexpr Face wedge_faces[] = {{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
 constexpr Face pyramid_faces[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
 
@@ -31,8 +32,8 @@ constexpr CellShapeInfo shapes[cell_shapes] = {
 const CellShapeInfo& info_of(CellShape shape) { return shapes[static_cast<std::size_t>(shape)]; }
 
 std::uint64_t MeshField::bytes() const {
-  return point.size() * (sizeof(Vector3) + sizeof(double)) + shape.size() * (sizeof(CellShape) + sizeof(std::uint64_t)) +
-         node.size() * sizeof(std::uint32_t);
+  return point.size() * (sizeof(Vector3) + sizeof(double)) +
+         shape.size() * (sizeof(CellShape) + sizeof(std::uint64_t)) + node.size() * sizeof(std::uint32_t);
 }
 
 void MeshField::add_cell(CellShape s, std::span<const std::uint32_t> nodes) {

@@ -12,19 +12,21 @@ using Monomials = std::array<double, element_terms>;
 
 Monomials monomials(const Vector3& x) {
   const double r = x[0], s = x[1], t = x[2];
-  return {1,     r,         s,         r * s,         t,     r * t,     s * t,     r * s * t,     r * r, r * r * s,
-          r * r * t, r * r * s * t, s * s, s * s * r, s * s * t, s * s * r * t, t * t, t * t * r, t * t * s, t * t * r * s};
+  return {1,     r,         s,         r * s,         t,     r * t,     s * t,     r * s * t,
+          r * r, r * r * s, r * r * t, r * r * s * t, s * s, s * s * r, s * s * t, s * s * r * t,
+          t * t, t * t * r, t * t * s, t * t * r * s};
 }
 
 /// By r, s and t.
 std::array<Monomials, 3> monomial_derivatives(const Vector3& x) {
   const double r = x[0], s = x[1], t = x[2];
-  return {Monomials{0, 1, 0, s, 0, t, 0, s * t, 2 * r, 2 * r * s, 2 * r * t, 2 * r * s * t, 0, s * s, 0, s * s * t, 0,
-                    t * t, 0, t * t * s},
-          Monomials{0, 0, 1, r, 0, 0, t, r * t, 0, r * r, 0, r * r * t, 2 * s, 2 * s * r, 2 * s * t, 2 * s * r * t, 0, 0,
-                    t * t, t * t * r},
-          Monomials{0, 0, 0, 0, 1, r, s, r * s, 0, 0, r * r, r * r * s, 0, 0, s * s, s * s * r, 2 * t, 2 * t * r,
-                    2 * t * s, 2 * t * r * s}};
+  return {Monomials{0, 1,     0, s,         0, t,     0, s * t,    2 * r, 2 * r * s, 2 * r * t, 2 * r * s * t,
+                    0, s * s, 0, s * s * t, 0, t * t, 0, t * t * s},
+          Monomials{0, 0,     1,     r,         0,     0,         t,         r * t,
+                    0, r * r, 0,     r * r * t, 2 * s, 2 * s * r, 2 * s * t, 2 * s * r * t,
+                    0, 0,     t * t, t * t * r},
+          Monomials{0,     0,         0, 0, 1,     r,         s,     r * s,     0,         0,
+                    r * r, r * r * s, 0, 0, s * s, s * s * r, 2 * t, 2 * t * r, 2 * t * s, 2 * t * r * s}};
 }
 
 /// The monomials that a shape uses: as many as it has nodes. (A pyramid's are no monomials; see pyramid_matrix.)

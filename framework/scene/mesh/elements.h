@@ -8,8 +8,9 @@
 
 namespace dvrlab {
 
-/// Monomials of every shape's shape functions: those of degree 1 in each coordinate, then r^2, s^2, t^2 times the bilinear
-/// ones of the other two coordinates. In the order in which kernels sum them (plugins/sampler/mesh/mesh.kernel):
+/// Monomials of every shape's shape functions: those of degree 1 in each coordinate, then r^2, s^2, t^2 times the
+/// bilinear ones of the other two coordinates. In the order in which kernels sum them
+/// (plugins/sampler/mesh/mesh.kernel):
 ///   1 r s rs t rt st rst | r^2 (1 s t st) | s^2 (1 r t rt) | t^2 (1 r s rs)
 inline constexpr int element_terms = 20, linear_element_terms = 8;
 
@@ -34,8 +35,8 @@ Vector3 reference_centre(CellShape shape);
 /// 9 x 9 x 9 points of each.
 std::pair<double, double> value_range(const MeshField& mesh);
 
-/// How far the middle nodes of edges lie from the edges' middles, relative to the edges, at the most: 0 where every cell is
-/// as its corners say.
+/// How far the middle nodes of edges lie from the edges' middles, relative to the edges, at the most: 0 where every
+/// cell is as its corners say.
 double largest_bend(const MeshField& mesh);
 
 }  // namespace dvrlab

@@ -83,7 +83,8 @@ std::uint64_t drop_cells(MeshField& mesh, Drop drop) {
       ++dropped;
       continue;
     }
-    std::copy(mesh.node.begin() + static_cast<std::ptrdiff_t>(begin), mesh.node.begin() + static_cast<std::ptrdiff_t>(end),
+    std::copy(mesh.node.begin() + static_cast<std::ptrdiff_t>(begin),
+              mesh.node.begin() + static_cast<std::ptrdiff_t>(end),
               mesh.node.begin() + static_cast<std::ptrdiff_t>(to));
     mesh.shape[kept] = mesh.shape[c];
     mesh.first[kept] = to;
@@ -218,8 +219,8 @@ void set_range(MeshField& mesh) {
   const auto [a, b] = std::minmax_element(mesh.value.begin(), mesh.value.end());
   if (lo < *a || hi > *b) {
     char text[160];
-    std::snprintf(text, sizeof text, "values inside cells go from %.9g to %.9g, beyond those of the nodes, %.9g to %.9g", lo,
-                  hi, *a, *b);
+    std::snprintf(text, sizeof text,
+                  "values inside cells go from %.9g to %.9g, beyond those of the nodes, %.9g to %.9g", lo, hi, *a, *b);
     mesh.notes.push_back(text);
   }
 }
@@ -264,7 +265,8 @@ void finish_mesh(MeshField& mesh, const std::string& nan_policy, double nan_valu
   });
   if (mesh.cells() == 0) throw InputError(mesh.source + ": no cell has a volume");
   drop_unused_points(mesh);
-  const bool linear = std::all_of(mesh.shape.begin(), mesh.shape.end(), [](CellShape s) { return info_of(s).linear(); });
+  const bool linear =
+      std::all_of(mesh.shape.begin(), mesh.shape.end(), [](CellShape s) { return info_of(s).linear(); });
   mesh.sampler = linear ? "mesh" : "curved_mesh";
   judge_cells(mesh);
   set_frame(mesh);

@@ -43,10 +43,10 @@ std::size_t array_of(const std::vector<MeshArray>& arrays, const ParameterSet& p
       }
     return count == 1 ? found : arrays.size();
   };
-  for (const std::size_t found : {only([](const MeshArray& a) { return a.active && !a.cells; }),
-                                  only([](const MeshArray& a) { return !a.cells; }),
-                                  only([](const MeshArray& a) { return a.active; }),
-                                  only([](const MeshArray&) { return true; })})
+  for (const std::size_t found :
+       {only([](const MeshArray& a) { return a.active && !a.cells; }),
+        only([](const MeshArray& a) { return !a.cells; }), only([](const MeshArray& a) { return a.active; }),
+        only([](const MeshArray&) { return true; })})
     if (found < arrays.size()) return found;
   throw InputError(name + ": holds several arrays; choose one with " + key + ": " + list_of(arrays));
 }
@@ -148,29 +148,29 @@ int shape_of(std::int64_t type, std::uint64_t cell, const std::string& where) {
   for (int s = 0; s < cell_shapes; ++s)
     if (info_of(static_cast<CellShape>(s)).vtk_type == type) return s;
   if (type == voxel) return static_cast<int>(CellShape::hexahedron);
-  static const std::map<std::int64_t, const char*> flat = {
-      {0, ""},  {1, ""},  {2, ""},  {3, ""},  {4, ""},  {5, ""},  {6, ""},  {7, ""},  {8, ""},
-      {9, ""},  {21, ""}, {22, ""}, {23, ""}, {28, ""}, {30, ""}, {34, ""}, {35, ""}, {36, ""}};
+  static const std::map<std::int64_t, const char*> flat = {{0, ""},  {1, ""},  {2, ""},  {3, ""},  {4, ""},  {5, ""},
+                                                           {6, ""},  {7, ""},  {8, ""},  {9, ""},  {21, ""}, {22, ""},
+                                                           {23, ""}, {28, ""}, {30, ""}, {34, ""}, {35, ""}, {36, ""}};
   if (flat.contains(type)) return -1;
   static const std::map<std::int64_t, const char*> others = {
-      {15, "a pentagonal prism"},          {16, "a hexagonal prism"},        {27, "a quadratic pyramid"},
-      {29, "a 27-node hexahedron"},        {31, "a quadratic linear wedge"}, {32, "an 18-node wedge"},
-      {33, "a 24-node hexahedron"},        {37, "a 19-node pyramid"},        {41, "a convex point set"},
-      {42, "a polyhedron"},                {71, "a Lagrange tetrahedron"},   {72, "a Lagrange hexahedron"},
+      {15, "a pentagonal prism"},   {16, "a hexagonal prism"},        {27, "a quadratic pyramid"},
+      {29, "a 27-node hexahedron"}, {31, "a quadratic linear wedge"}, {32, "an 18-node wedge"},
+      {33, "a 24-node hexahedron"}, {37, "a 19-node pyramid"},        {41, "a convex point set"},
+      {42, "a polyhedron"},         {71, "a Lagrange tetrahedron"},   {72, "a Lagrange hexahedron"},
       {73, "a Lagrange wedge"}};
   const auto found = others.find(type);
-  throw InputError(where + ": cell " + std::to_string(cell) + " is " +
-                   (found == others.end() ? "of an unknown type" : found->second) + " (VTK type " +
-                   std::to_string(type) +
-                   "); tetrahedra, hexahedra, voxels, wedges, pyramids, 10-node tetrahedra, 20-node hexahedra and 15-node "
-                   "wedges are read. ParaView's filter \"Tetrahedralize\" cuts any cell into tetrahedra");
+  throw InputError(
+      where + ": cell " + std::to_string(cell) + " is " +
+      (found == others.end() ? "of an unknown type" : found->second) + " (VTK type " + std::to_string(type) +
+      "); tetrahedra, hexahedra, voxels, wedges, pyramids, 10-node tetrahedra, 20-node hexahedra and 15-node "
+      "wedges are read. ParaView's filter \"Tetrahedralize\" cuts any cell into tetrahedra");
 }
 
 }  // namespace
 
-void add_vtk_cells(MeshField& mesh, const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& connectivity,
-                   const std::vector<std::int64_t>& ends, std::uint64_t offset, std::vector<std::uint64_t>& kept,
-                   const std::string& where) {
+void add_vtk_cells(MeshField& mesh, const std::vector<std::int64_t>& types,
+                   const std::vector<std::int64_t>& connectivity, const std::vector<std::int64_t>& ends,
+                   std::uint64_t offset, std::vector<std::uint64_t>& kept, const std::string& where) {
   std::int64_t begin = 0;
   std::uint64_t flat = 0;
   const auto most = static_cast<std::int64_t>(connectivity.size());
@@ -205,7 +205,8 @@ void add_vtk_cells(MeshField& mesh, const std::vector<std::int64_t>& types, cons
     kept.push_back(c);
     begin = end;
   }
-  if (flat > 0) mesh.notes.push_back(std::to_string(flat) + " cells without a volume (points, lines, surfaces) are left out");
+  if (flat > 0)
+    mesh.notes.push_back(std::to_string(flat) + " cells without a volume (points, lines, surfaces) are left out");
 }
 
 }  // namespace dvrlab

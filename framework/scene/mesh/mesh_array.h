@@ -43,8 +43,8 @@ std::vector<double> scalars_of(const std::vector<double>& numbers, long long com
 /// Cells as VTK's files list them: of type types[c] (VTK's number), with the nodes connectivity[ends[c - 1] .. ends[c])
 /// plus `offset`. Cells without a volume are left out and noted; `kept` gets the indices of the others. Throws
 /// InputError, `where` in front, for a type that is not read and for counts that do not fit.
-void add_vtk_cells(MeshField& mesh, const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& connectivity,
-                   const std::vector<std::int64_t>& ends, std::uint64_t offset, std::vector<std::uint64_t>& kept,
-                   const std::string& where);
+void add_vtk_cells(MeshField& mesh, const std::vector<std::int64_t>& types,
+                   const std::vector<std::int64_t>& connectivity, const std::vector<std::int64_t>& ends,
+                   std::uint64_t offset, std::vector<std::uint64_t>& kept, const std::string& where);
 
 }  // namespace dvrlab

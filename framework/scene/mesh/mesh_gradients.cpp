@@ -33,9 +33,8 @@ std::vector<Vector3> cell_gradients(const MeshField& mesh) {
   std::vector<Vector3> g(mesh.cells());
   parallel_ranges(mesh.cells(), 4096, [&](std::uint64_t begin, std::uint64_t end) {
     for (std::uint64_t c = begin; c < end; ++c)
-      g[c] = mesh.shape[c] == CellShape::tetrahedron
-                 ? linear_gradient(mesh, mesh.nodes_of(c).data())
-                 : gradient(element_of(mesh, c), reference_centre(mesh.shape[c]));
+      g[c] = mesh.shape[c] == CellShape::tetrahedron ? linear_gradient(mesh, mesh.nodes_of(c).data())
+                                                     : gradient(element_of(mesh, c), reference_centre(mesh.shape[c]));
   });
   return g;
 }

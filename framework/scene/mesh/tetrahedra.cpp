@@ -41,8 +41,8 @@ void cut_cell(const CellShapeInfo& shape, const std::uint32_t* node, Add add) {
 }
 
 void cut_cells(const MeshField& mesh, Tetrahedra& t) {
-  const bool plain = std::all_of(mesh.shape.begin(), mesh.shape.end(),
-                                 [](CellShape s) { return s == CellShape::tetrahedron; });
+  const bool plain =
+      std::all_of(mesh.shape.begin(), mesh.shape.end(), [](CellShape s) { return s == CellShape::tetrahedron; });
   t.vertex.reserve(mesh.cells());
   for (std::uint64_t c = 0; c < mesh.cells(); ++c) {
     cut_cell(info_of(mesh.shape[c]), mesh.node.data() + mesh.first[c], [&](const Corners& corners) {
@@ -83,7 +83,8 @@ void join_faces(std::size_t points, Tetrahedra& t) {
   for (std::size_t j = 0; j < t.vertex.size(); ++j)
     for (int k = 0; k < 4; ++k) {
       const auto f = sorted_face(t.vertex[j], k);
-      sides[next[static_cast<std::size_t>(f[0])]++] = {f[1], f[2], static_cast<std::uint32_t>(4 * j) + static_cast<std::uint32_t>(k)};
+      sides[next[static_cast<std::size_t>(f[0])]++] = {
+          f[1], f[2], static_cast<std::uint32_t>(4 * j) + static_cast<std::uint32_t>(k)};
     }
   t.neighbour.assign(t.vertex.size(), {-1, -1, -1, -1});
   std::vector<std::uint64_t> crowded(points, 0);

@@ -9,8 +9,8 @@
 
 namespace dvrlab {
 
-/// Every cell cut into tetrahedra of its corners, all from its corner of the smallest index: a quadrilateral face gets the
-/// diagonal of its smallest index on both sides (after Dompierre, Labbe, Vallet, Camarero 1999).
+/// Every cell cut into tetrahedra of its corners, all from its corner of the smallest index: a quadrilateral face gets
+/// the diagonal of its smallest index on both sides (after Dompierre, Labbe, Vallet, Camarero 1999).
 struct Tetrahedra {
   std::vector<std::array<std::int32_t, 4>> vertex;     // indices of points
   std::vector<std::array<std::int32_t, 4>> neighbour;  // tetrahedron behind the face opposite to vertex k; -1: none

@@ -78,9 +78,14 @@ class Filler {
   }
   void add_brick(int i, int j, int k) {
     // VTK's order: around the lower face, then above it.
-    const Ids p{grid_point(i, j, k),         grid_point(i + 1, j, k),         grid_point(i + 1, j + 1, k),
-                grid_point(i, j + 1, k),     grid_point(i, j, k + 1),         grid_point(i + 1, j, k + 1),
-                grid_point(i + 1, j + 1, k + 1), grid_point(i, j + 1, k + 1)};
+    const Ids p{grid_point(i, j, k),
+                grid_point(i + 1, j, k),
+                grid_point(i + 1, j + 1, k),
+                grid_point(i, j + 1, k),
+                grid_point(i, j, k + 1),
+                grid_point(i + 1, j, k + 1),
+                grid_point(i + 1, j + 1, k + 1),
+                grid_point(i, j + 1, k + 1)};
     using enum CellShape;
     switch (plan_.cells) {
       case BoxCells::tetrahedra5:
@@ -155,7 +160,8 @@ std::uint64_t mesh_bytes(const MeshPlan& plan) {
   struct Share {
     std::uint64_t cells, nodes, points;  // per brick; points beside the corners
   };
-  constexpr Share shares[] = {{5, 20, 0}, {6, 24, 0}, {1, 8, 0}, {2, 12, 0}, {6, 30, 1}, {6, 60, 8}, {1, 20, 4}, {2, 30, 6}};
+  constexpr Share shares[] = {{5, 20, 0}, {6, 24, 0}, {1, 8, 0},  {2, 12, 0},
+                              {6, 30, 1}, {6, 60, 8}, {1, 20, 4}, {2, 30, 6}};
   const Share s = shares[static_cast<std::size_t>(plan.cells)];
   // Points: place, value, an entry of the map. Vectors grow by doubling.
   return 2 * (points * 32 + bricks * (s.points * 64 + s.cells * 9 + s.nodes * 4));

@@ -11,12 +11,12 @@ namespace dvrlab::procedural {
 
 /// How each of the bricks between grid points is cut; the words of the key `cells` in this order.
 enum class BoxCells {
-  tetrahedra5,    // around a regular one; neighbours are mirrored
-  tetrahedra6,    // around the diagonal from the lowest to the highest corner
+  tetrahedra5,  // around a regular one; neighbours are mirrored
+  tetrahedra6,  // around the diagonal from the lowest to the highest corner
   hexahedra,
-  wedges,         // 2
-  pyramids,       // 6, with a point in the middle
-  tetrahedra10,   // 6 with nodes in the middle of their edges
+  wedges,        // 2
+  pyramids,      // 6, with a point in the middle
+  tetrahedra10,  // 6 with nodes in the middle of their edges
   hexahedra20,
   wedges15
 };

@@ -101,9 +101,7 @@ std::array<long long, 3> sizes(const ParameterSet& p) {
   return {size[0], size[1], size[2]};
 }
 
-std::string describe(const ParameterSet& p) {
-  return "procedural " + p.text("field") + ", " + p.text("evaluate");
-}
+std::string describe(const ParameterSet& p) { return "procedural " + p.text("field") + ", " + p.text("evaluate"); }
 
 std::shared_ptr<const Field> formula_field(const FormulaParams& f, const Box& box, const ParameterSet& p) {
   auto field = std::make_shared<FormulaField>();

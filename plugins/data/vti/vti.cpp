@@ -7,8 +7,8 @@
 #include "framework/interfaces/field.h"
 #include "framework/scene/mapped_file.h"
 #include "framework/scene/sha256.h"
-#include "plugins/data/vti/pieces.h"
 #include "framework/vtk_xml/array_values.h"
+#include "plugins/data/vti/pieces.h"
 
 namespace dvrlab::vti {
 namespace {

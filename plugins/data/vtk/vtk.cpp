@@ -20,10 +20,24 @@ constexpr Parameter file_key{"file",
                              "",
                              "The .vtk file, relative to the config's folder; ${NAME} reads the environment.",
                              Affects::pixels,
-                             "{}",
-                             R"("../../../data/cells.vtk")"};
+                             R"({"data":{"array":"velocity","component":"norm"}})",
+                             R"("../../../data/CylinderLinear.vtk")"};
 
-constexpr Parameter parameters[] = {file_key, mesh_array_key, mesh_component_key, mesh_gradient_key, mesh_tolerance_key};
+/// A shared key that is live in a patch of this reader's example.
+constexpr Parameter live(Parameter key, const char* patch, const char* value) {
+  key.live_in = patch;
+  key.live_value = value;
+  return key;
+}
+
+constexpr Parameter parameters[] = {
+    file_key, live(mesh_array_key, "{}", R"("velocity_norm")"),
+    live(mesh_component_key, R"({"data":{"array":"velocity","component":"0"}})", R"("norm")"),
+    live(
+        mesh_gradient_key,
+        R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
+        R"("cell")"),
+    live(mesh_tolerance_key, "{}", "0.2")};
 
 struct Opened {
   std::string name;
@@ -87,11 +101,12 @@ class Vtk : public DataPlugin {
     if (arrays.size() > 1 || chosen.components > 1)
       mesh->notes.push_back("array " + text_of(chosen, choice) + " of " + std::to_string(arrays.size()) + " is read");
     const std::vector<double> places = doubles_of(f, o.file->bytes(), f.places);
-    for (std::size_t k = 0; k + 2 < places.size(); k += 3) mesh->point.push_back({places[k], places[k + 1], places[k + 2]});
+    for (std::size_t k = 0; k + 2 < places.size(); k += 3)
+      mesh->point.push_back({places[k], places[k + 1], places[k + 2]});
     std::vector<std::uint64_t> kept;
     add_cells(o, *mesh, kept);
-    const std::vector<double> values = scalars_of(doubles_of(f, o.file->bytes(), f.arrays[choice.array].numbers),
-                                                  chosen.components, choice.component);
+    const std::vector<double> values =
+        scalars_of(doubles_of(f, o.file->bytes(), f.arrays[choice.array].numbers), chosen.components, choice.component);
     if (chosen.cells) {
       std::vector<double> of_cells;
       for (const std::uint64_t c : kept) of_cells.push_back(values[c]);

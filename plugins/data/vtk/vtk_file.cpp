@@ -104,9 +104,11 @@ std::string upper(std::string s) {
 SourceType type_of(const std::string& word, const std::string& where) {
   using enum SourceType;
   static const std::map<std::string, SourceType> types = {
-      {"char", i8},          {"signed_char", i8}, {"unsigned_char", u8}, {"short", i16},         {"unsigned_short", u16},
-      {"int", i32},          {"unsigned_int", u32}, {"long", i64},       {"unsigned_long", u64}, {"vtkidtype", i64},
-      {"vtktypeint64", i64}, {"vtktypeuint64", u64}, {"float", f32},     {"double", f64}};
+      {"char", i8},          {"signed_char", i8},     {"unsigned_char", u8},
+      {"short", i16},        {"unsigned_short", u16}, {"int", i32},
+      {"unsigned_int", u32}, {"long", i64},           {"unsigned_long", u64},
+      {"vtkidtype", i64},    {"vtktypeint64", i64},   {"vtktypeuint64", u64},
+      {"float", f32},        {"double", f64}};
   const auto found = types.find(lower(word));
   if (found == types.end())
     throw InputError(where + ": \"" + word.substr(0, 40) +
@@ -239,8 +241,8 @@ class Sections {
   bool in_data() const { return entries_ > 0; }
 
   void read_attribute(const std::string& key) {
-    static const std::map<std::string, long long> fixed = {
-        {"VECTORS", 3}, {"NORMALS", 3}, {"TENSORS", 9}, {"TENSORS6", 6}, {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}};
+    static const std::map<std::string, long long> fixed = {{"VECTORS", 3},  {"NORMALS", 3},    {"TENSORS", 9},
+                                                           {"TENSORS6", 6}, {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}};
     const std::string name = decoded(s_.word()), section = key + " \"" + name + "\"";
     if (key == "LOOKUP_TABLE") {
       numbers(f_.binary ? SourceType::u8 : SourceType::f32, s_.natural(where(section)), 4, section);
@@ -274,8 +276,8 @@ class Sections {
       a.components = fixed.at(key);
       type = type_of(s_.word(), where(section));
     } else {
-      throw InputError(s_.name() + ": \"" + key.substr(0, 40) + "\" begins no section of an unstructured grid (near byte " +
-                       std::to_string(s_.at()) + ")");
+      throw InputError(s_.name() + ": \"" + key.substr(0, 40) +
+                       "\" begins no section of an unstructured grid (near byte " + std::to_string(s_.at()) + ")");
     }
     if (!in_data()) throw InputError(where(section) + ": stands before POINT_DATA and CELL_DATA");
     a.numbers = numbers(type, entries_, static_cast<std::uint64_t>(a.components), section);

@@ -28,7 +28,8 @@ struct VtkFile {
   bool binary = false;
   std::uint64_t points = 0, cells = 0;
   Numbers places, types;
-  /// Before version 5.1 one list: how many nodes, then these, for every cell. Else connectivity and its `offsets`, from 0.
+  /// Before version 5.1 one list: how many nodes, then these, for every cell. Else connectivity and its `offsets`, from
+  /// 0.
   bool counted = true;
   Numbers connectivity, offsets;
   std::vector<DataArray> arrays;

@@ -23,10 +23,24 @@ constexpr Parameter file_key{"file",
                              "",
                              "The .vtu file, relative to the config's folder; ${NAME} reads the environment.",
                              Affects::pixels,
-                             "{}",
-                             R"("../../../data/cells.vtu")"};
+                             R"({"data":{"array":"","component":"norm"}})",
+                             R"("../../../data/notch_disp.vtu")"};
 
-constexpr Parameter parameters[] = {file_key, mesh_array_key, mesh_component_key, mesh_gradient_key, mesh_tolerance_key};
+/// A shared key that is live in a patch of this reader's example.
+constexpr Parameter live(Parameter key, const char* patch, const char* value) {
+  key.live_in = patch;
+  key.live_value = value;
+  return key;
+}
+
+constexpr Parameter parameters[] = {
+    file_key, live(mesh_array_key, "{}", R"("Pres")"),
+    live(mesh_component_key, R"({"data":{"array":"V","component":"0"}})", R"("norm")"),
+    live(
+        mesh_gradient_key,
+        R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
+        R"("cell")"),
+    live(mesh_tolerance_key, "{}", "0.2")};
 
 struct Opened {
   std::string name;
@@ -158,7 +172,8 @@ class Vtu : public DataPlugin {
     const PieceReader read(o, piece);
     const std::uint64_t offset = mesh.point.size();
     const std::vector<double> places = read.doubles(read.places(), piece.points);
-    for (std::size_t k = 0; k + 2 < places.size(); k += 3) mesh.point.push_back({places[k], places[k + 1], places[k + 2]});
+    for (std::size_t k = 0; k + 2 < places.size(); k += 3)
+      mesh.point.push_back({places[k], places[k + 1], places[k + 2]});
     const std::vector<std::int64_t> types = read.integers(read.topology("types"), piece.cells),
                                     ends = read.integers(read.topology("offsets"), piece.cells);
     const std::int64_t nodes = ends.empty() ? 0 : ends.back();

@@ -22,7 +22,9 @@ class Reader : public vtk_xml::FileReader {
  private:
   void check_type(const std::string& type, const Attributes& a) override {
     if (type == "PUnstructuredGrid")
-      a.fail("type is \"PUnstructuredGrid\", a list of other files; name one of these, or store the mesh as one .vtu file");
+      a.fail(
+          "type is \"PUnstructuredGrid\", a list of other files; name one of these, or store the mesh as one .vtu "
+          "file");
     if (type != "UnstructuredGrid") a.fail("type is \"" + type + "\"; only UnstructuredGrid is read");
   }
 

@@ -1,5 +1,5 @@
-// Sabella's density emitter: a cloud of glowing spherical particles (Sabella 1988; Max, Hanrahan and Crawfis 1990; Williams and
-// Max 1992, section 2).
+// Sabella's density emitter: a cloud of glowing spherical particles (Sabella 1988; Max, Hanrahan and Crawfis 1990;
+// Williams and Max 1992, section 2).
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -19,7 +19,8 @@ constexpr Parameter parameters[] = {
     {"glow", vector3, "", "[1,1,1]", "", "Intensity kappa of the particles' surfaces per channel, at least 0.",
      Affects::pixels, "", "[0.2,0.9,0.5]"},
     {"tau", vector3, "1/length_unit", "[0,0,0]", "",
-     "Extinction per density and channel, which scales the density differently for each channel; [0,0,0]: 3 / (4 radius) "
+     "Extinction per density and channel, which scales the density differently for each channel; [0,0,0]: 3 / (4 "
+     "radius) "
      "for all.",
      Affects::pixels, "", "[2,8,4]"},
 };
@@ -39,9 +40,10 @@ class Particles : public OpticalModelPlugin {
 
   Medium medium(const ParameterSet& p, const ModelContext& context) const override {
     const Curve density(p.nodes("density"));
-    const double fullest = std::max_element(density.nodes().begin(), density.nodes().end(), [](const Node& a, const Node& b) {
-                             return a.x[0] < b.x[0];
-                           })->x[0];
+    const double fullest =
+        std::max_element(density.nodes().begin(), density.nodes().end(), [](const Node& a, const Node& b) {
+          return a.x[0] < b.x[0];
+        })->x[0];
     constexpr double sparse = 0.1;
     if (fullest > sparse)
       context.notes->push_back(p.path_of("density") + ": reaches " + nlohmann::json(fullest).dump() +
@@ -49,7 +51,8 @@ class Particles : public OpticalModelPlugin {
     const Vector3 given = p.vector3("tau"), glow = p.vector3("glow");
     const bool by_radius = given == Vector3{0, 0, 0};
     Vector3 tau;
-    for (std::size_t c = 0; c < 3; ++c) tau[c] = (by_radius ? 3 / (4 * p.number("radius")) : given[c]) / context.length_unit;
+    for (std::size_t c = 0; c < 3; ++c)
+      tau[c] = (by_radius ? 3 / (4 * p.number("radius")) : given[c]) / context.length_unit;
     Curve extinction = density, source = density;
     for (std::size_t k = 0; k < density.nodes().size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) {

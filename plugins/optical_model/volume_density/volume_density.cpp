@@ -1,4 +1,5 @@
-// The continuous model of Williams and Max 1992: a glowing gas with an optical density and a chromaticity per colour channel.
+// The continuous model of Williams and Max 1992: a glowing gas with an optical density and a chromaticity per colour
+// channel.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,7 +18,8 @@ constexpr const char* channel_patch =
 
 constexpr Parameter parameters[] = {
     {"density", nodes, "1/length", "null", "1|3",
-     "Optical density rho: nodes [value, rho], one for all channels, or [value, r, g, b]; per length_unit, or in [0, 1] "
+     "Optical density rho: nodes [value, rho], one for all channels, or [value, r, g, b]; per length_unit, or in [0, "
+     "1] "
      "with form normalised.",
      pixels, "", "[[0,0.1],[1,2,1,0.5]]"},
     {"chromaticity", nodes, "", "null", "1|3", "Chromaticity kappa: nodes [value, kappa] or [value, r, g, b].", pixels,
@@ -35,17 +37,22 @@ constexpr Parameter parameters[] = {
     {"blue.chromaticity", nodes, "", "null", "1", "Chromaticity of the blue channel.", pixels, channel_patch,
      "[[0,1],[0.5,0]]"},
     {"form", choice, "", R"("extinction")", "extinction|normalised",
-     "extinction: rho and kappa as they are, from 0 to infinity; normalised: 1 - exp(-rho) and 1 - exp(-kappa), from 0 to "
+     "extinction: rho and kappa as they are, from 0 to infinity; normalised: 1 - exp(-rho) and 1 - exp(-kappa), from 0 "
+     "to "
      "1, over one length_unit.",
      pixels, R"({"optical_model":{"density":[[0,0.3],[1,0.2]],"chromaticity":[[0,0.2],[1,0.9]]}})", R"("normalised")"},
     {"emission", choice, "", R"("associated")", "associated|independent",
-     "associated: matter emits kappa rho per length, so thin matter glows little; independent: kappa per length, whatever "
+     "associated: matter emits kappa rho per length, so thin matter glows little; independent: kappa per length, "
+     "whatever "
      "the density (Wilhelms and Van Gelder 1991).",
      pixels, "", R"("independent")"},
     {"shaded", json, "", "[]",
-     "a list of {\"from\": v0, \"to\": v1, \"as\": \"source\" | \"dirac\" (optional), \"thickness\": length (dirac, optional)}",
-     "Intervals of values that are shown as surfaces: their emission is shaded (source), or all of their matter becomes a "
-     "discrete isosurface of the depth that it has over the thickness, 1 length_unit by default, per unit of value (dirac).",
+     "a list of {\"from\": v0, \"to\": v1, \"as\": \"source\" | \"dirac\" (optional), \"thickness\": length (dirac, "
+     "optional)}",
+     "Intervals of values that are shown as surfaces: their emission is shaded (source), or all of their matter "
+     "becomes a "
+     "discrete isosurface of the depth that it has over the thickness, 1 length_unit by default, per unit of value "
+     "(dirac).",
      pixels, R"({"illumination":[{"type":"blinn_phong"}]})", R"([{"from":0.4,"to":0.6}])", "",
      R"({"type":"array","items":{"type":"object","properties":{"from":{"type":"number"},"to":{"type":"number"},"as":{"enum":["source","dirac"]},"thickness":{"type":"number","exclusiveMinimum":0}},"required":["from","to"],"additionalProperties":false}})"},
 };
@@ -114,7 +121,8 @@ struct Amount {
     return any;
   }
   bool per_channel() const {
-    return std::any_of(std::begin(channels), std::end(channels), [&](const char* c) { return !p.is_null(c + ("." + key)); });
+    return std::any_of(std::begin(channels), std::end(channels),
+                       [&](const char* c) { return !p.is_null(c + ("." + key)); });
   }
   void check() const {
     for (int c = -1; c < 3; ++c) {
@@ -143,7 +151,8 @@ class VolumeDensity : public OpticalModelPlugin {
  public:
   void check(const ParameterSet& p) const override {
     const Amount density{p, "density"}, chromaticity{p, "chromaticity"};
-    if (!density.given()) throw InputError(p.path_of("density") + ": give it, or red.density, green.density and blue.density");
+    if (!density.given())
+      throw InputError(p.path_of("density") + ": give it, or red.density, green.density and blue.density");
     density.check();
     chromaticity.check();
     flagged(p);
@@ -175,11 +184,11 @@ class VolumeDensity : public OpticalModelPlugin {
     });
     if (Amount{p, "density"}.per_channel()) density.opaque.clear();  // opaque in one channel only: capped there
     const Amount chroma{p, "chromaticity"};
-    const Curve color = !chroma.given() ? Curve(Vector3{1, 1, 1})
-                                        : chroma.curve([&](const Curve& c, const std::string& path) {
-                                            // 1 - exp(-kappa) has the form of an opacity over a length of 1.
-                                            return normalised ? extinction_of(c, nullptr, 1, path, context).curve : c;
-                                          });
+    const Curve color =
+        !chroma.given() ? Curve(Vector3{1, 1, 1}) : chroma.curve([&](const Curve& c, const std::string& path) {
+          // 1 - exp(-kappa) has the form of an opacity over a length of 1.
+          return normalised ? extinction_of(c, nullptr, 1, path, context).curve : c;
+        });
     const std::vector<Flagged> surfaces = flagged(p);
     std::vector<double> borders;
     for (const Flagged& f : surfaces) borders.insert(borders.end(), {f.from, f.to});
@@ -202,12 +211,14 @@ class VolumeDensity : public OpticalModelPlugin {
       for (MediumInterval& i : m.interval) {
         if (i.v0 < f.from || i.v1 > f.to) continue;
         for (int c = 0; c < 3; ++c) {
-          const auto tau = static_cast<std::size_t>(column(Term::tau_l, c)), e = static_cast<std::size_t>(column(Term::E, c));
+          const auto tau = static_cast<std::size_t>(column(Term::tau_l, c)),
+                     e = static_cast<std::size_t>(column(Term::E, c));
           if (!f.dirac) {
             i.c[static_cast<std::size_t>(column(Term::S_l, c))] = i.c[e];
             i.c[static_cast<std::size_t>(column(Term::W_l, c))] = i.c[tau];
           } else {
-            const double depth = integral(i, tau) * f.thickness * length_unit, source = integral(i, e) * f.thickness * length_unit;
+            const double depth = integral(i, tau) * f.thickness * length_unit,
+                         source = integral(i, e) * f.thickness * length_unit;
             d.mu[static_cast<std::size_t>(c)] += depth;
             d.c[static_cast<std::size_t>(c)] += source;
             i.c[tau] = {0, 0, 0};

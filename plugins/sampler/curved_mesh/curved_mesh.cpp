@@ -40,8 +40,7 @@ Buffer cell_buffer(const MeshField& mesh, const std::vector<std::uint64_t>& elem
 /// A polynomial in sampler coordinates and stored values.
 Element4 stored(const MeshField& mesh, Element4 e) {
   for (std::size_t k = 0; k < element_terms; ++k) {
-    for (std::size_t a = 0; a < 3; ++a)
-      e[k][a] = (e[k][a] - (k == 0 ? mesh.to_world.t[a] : 0)) / mesh.to_world.m[0];
+    for (std::size_t a = 0; a < 3; ++a) e[k][a] = (e[k][a] - (k == 0 ? mesh.to_world.t[a] : 0)) / mesh.to_world.m[0];
     e[k][3] = (e[k][3] - (k == 0 ? mesh.intercept : 0)) / mesh.slope;
   }
   return e;
@@ -91,13 +90,15 @@ class CurvedMesh : public SamplerPlugin {
     const int terms = terms_of(*mesh);
     const bool cells = mesh->gradient == MeshGradient::cell;
     const std::vector<Vector3> of_vertex =
-        cells ? std::vector<Vector3>() : vertex_gradients(*mesh, mesh->gradient == MeshGradient::vertex_inverse_distance);
+        cells ? std::vector<Vector3>()
+              : vertex_gradients(*mesh, mesh->gradient == MeshGradient::vertex_inverse_distance);
     std::vector<double> rows, centres, bends;
     bool any_distorted = false;
     for (const std::uint64_t c : elements) {
       const Element4 e = stored(*mesh, element_of(*mesh, c));
       any_distorted = any_distorted || distorted(e);
-      for (int k = 0; k < terms; ++k) rows.insert(rows.end(), e[static_cast<std::size_t>(k)].begin(), e[static_cast<std::size_t>(k)].end());
+      for (int k = 0; k < terms; ++k)
+        rows.insert(rows.end(), e[static_cast<std::size_t>(k)].begin(), e[static_cast<std::size_t>(k)].end());
       const Vector3 middle = reference_centre(mesh->shape[c]);
       centres.insert(centres.end(), {middle[0], middle[1], middle[2], 0.0});
       if (!cells) add_corner_gradients(*mesh, c, of_vertex, bends);
@@ -120,10 +121,11 @@ class CurvedMesh : public SamplerPlugin {
 
 }  // namespace
 
-DVRLAB_PLUGIN_PLAIN("sampler", "curved_mesh", "1.0", CurvedMesh,
-                    "walks through a mesh of hexahedra, wedges, pyramids, tetrahedra and quadratic cells: each in segments "
-                    "that are linear to a tolerance",
-                    "P. Williams and N. Max, A Volume Density Optical Model, Workshop on Volume Visualization 1992, appendix, "
-                    "doi:10.1145/147130.147151")
+DVRLAB_PLUGIN_PLAIN(
+    "sampler", "curved_mesh", "1.0", CurvedMesh,
+    "walks through a mesh of hexahedra, wedges, pyramids, tetrahedra and quadratic cells: each in segments "
+    "that are linear to a tolerance",
+    "P. Williams and N. Max, A Volume Density Optical Model, Workshop on Volume Visualization 1992, appendix, "
+    "doi:10.1145/147130.147151")
 
 }  // namespace dvrlab::curved_mesh

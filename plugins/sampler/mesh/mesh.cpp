@@ -1,6 +1,7 @@
 // The `mesh` sampler: binds a mesh of 4-node tetrahedra to its kernel.
-#include "framework/interfaces/error.h"
 #include "framework/interfaces/mesh.h"
+
+#include "framework/interfaces/error.h"
 #include "framework/scene/mesh/tetrahedra_unit.h"
 
 namespace dvrlab::mesh {
