@@ -68,40 +68,49 @@ std::pair<Bytes, Bytes> vti_binary(const Bytes& bytes, const VtiCoding& c) {
   return {words(sizes, c), all};
 }
 
-Bytes VtiFile::bytes() const {
-  const VtiCoding& c = coding;
-  std::string text = R"(<?xml version="1.0"?>)"
-                     "\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"" +
-                     std::string(c.big_endian ? "BigEndian" : "LittleEndian") + "\" header_type=\"" +
-                     (c.word == 8 ? "UInt64" : "UInt32") + "\"" +
-                     (c.compressor.empty() ? "" : " compressor=\"" + c.compressor + "\"") +
-                     ">\n<ImageData WholeExtent=\"" + whole + "\" " + grid + ">\n";
-  Bytes appended;
-  const auto coded = [&](const VtiArray& a) {
-    const auto [head, rest] = vti_binary(a.bytes, c);
-    if (c.format == "appended" && c.encoding == "raw") return head + rest;
+VtkXmlWriter::VtkXmlWriter(const VtiCoding& coding, const std::string& type) : c_(coding), type_(type) {
+  text_ = R"(<?xml version="1.0"?>)"
+          "\n<VTKFile type=\"" +
+          type + "\" version=\"1.0\" byte_order=\"" + std::string(c_.big_endian ? "BigEndian" : "LittleEndian") +
+          "\" header_type=\"" + (c_.word == 8 ? "UInt64" : "UInt32") + "\"" +
+          (c_.compressor.empty() ? "" : " compressor=\"" + c_.compressor + "\"") + ">\n";
+}
+
+void VtkXmlWriter::array(const VtiArray& a) {
+  const auto coded = [&] {
+    const auto [head, rest] = vti_binary(a.bytes, c_);
+    if (c_.format == "appended" && c_.encoding == "raw") return head + rest;
     // As VTK does: the table of compressed blocks has its own padding, an uncompressed size has not.
-    return c.compressor.empty() ? vti_base64(head + rest) : vti_base64(head) + vti_base64(rest);
+    return c_.compressor.empty() ? vti_base64(head + rest) : vti_base64(head) + vti_base64(rest);
   };
-  for (const VtiPiece& p : pieces) {
-    text += "<Piece Extent=\"" + p.extent + "\">\n<PointData " + p.point_data + ">\n";
-    for (const VtiArray& a : p.arrays) {
-      text += "<DataArray type=\"" + a.type + "\" Name=\"" + a.name + "\" NumberOfComponents=\"" +
-              std::to_string(a.components) + "\" format=\"" + c.format + "\"";
-      if (c.format == "appended") {
-        text += " offset=\"" + std::to_string(appended.size()) + "\"/>\n";
-        appended = appended + coded(a);
-        continue;
-      }
-      const Bytes inside = c.format == "ascii" ? Bytes(a.text.begin(), a.text.end()) : coded(a);
-      text += ">\n" + std::string(inside.begin(), inside.end()) + "\n</DataArray>\n";
-    }
-    text += "</PointData>\n</Piece>\n";
+  text_ += "<DataArray type=\"" + a.type + "\" Name=\"" + a.name + "\" NumberOfComponents=\"" +
+           std::to_string(a.components) + "\" format=\"" + c_.format + "\"";
+  if (c_.format == "appended") {
+    text_ += " offset=\"" + std::to_string(appended_.size()) + "\"/>\n";
+    appended_ = appended_ + coded();
+    return;
   }
-  text += "</ImageData>\n";
-  if (c.format == "appended") text += "<AppendedData encoding=\"" + c.encoding + "\">\n _";
-  const std::string end = c.format == "appended" ? "\n</AppendedData>\n</VTKFile>\n" : "</VTKFile>\n";
-  return text + appended + Bytes(end.begin(), end.end());
+  const Bytes inside = c_.format == "ascii" ? Bytes(a.text.begin(), a.text.end()) : coded();
+  text_ += ">\n" + std::string(inside.begin(), inside.end()) + "\n</DataArray>\n";
+}
+
+Bytes VtkXmlWriter::finish() const {
+  std::string text = text_;
+  if (c_.format == "appended") text += "<AppendedData encoding=\"" + c_.encoding + "\">\n _";
+  const std::string end = c_.format == "appended" ? "\n</AppendedData>\n</VTKFile>\n" : "</VTKFile>\n";
+  return text + appended_ + Bytes(end.begin(), end.end());
+}
+
+Bytes VtiFile::bytes() const {
+  VtkXmlWriter out(coding, "ImageData");
+  out.text("<ImageData WholeExtent=\"" + whole + "\" " + grid + ">\n");
+  for (const VtiPiece& p : pieces) {
+    out.text("<Piece Extent=\"" + p.extent + "\">\n<PointData " + p.point_data + ">\n");
+    for (const VtiArray& a : p.arrays) out.array(a);
+    out.text("</PointData>\n</Piece>\n");
+  }
+  out.text("</ImageData>\n");
+  return out.finish();
 }
 
 }  // namespace dvrlab::test

@@ -26,6 +26,20 @@ struct VtiArray {
   std::string text;
 };
 
+/// A VTK XML file of any type, element by element.
+class VtkXmlWriter {
+ public:
+  VtkXmlWriter(const VtiCoding& coding, const std::string& type);
+  void text(const std::string& xml) { text_ += xml; }
+  void array(const VtiArray& a);
+  Bytes finish() const;
+
+ private:
+  VtiCoding c_;
+  std::string type_, text_;
+  Bytes appended_;
+};
+
 struct VtiPiece {
   std::string extent, point_data;  // point_data: attributes of <PointData>
   std::vector<VtiArray> arrays;

@@ -53,13 +53,6 @@ json ray_config(const json& ray, int segments) {
   throw std::logic_error("no config says a ray of type " + type);
 }
 
-/// W: rho^ -> -ln(1 - rho^) at the nodes.
-json normalized(json nodes) {
-  for (json& n : nodes)
-    for (std::size_t c = 1; c < n.size(); ++c) n[c] = -std::log1p(-n[c].get<double>());
-  return nodes;
-}
-
 json surface_of(const json& p) {
   json surface = json::object();
   if (p.contains("a_s")) surface["opacity"] = p["a_s"];
@@ -74,12 +67,13 @@ json model_of(const std::string& model, const json& p) {
   if (p.contains("dl_std")) m["dl_std"] = p["dl_std"];
   if (p.contains("dv_std")) m["dv_std"] = p["dv_std"];
   if (p.value("interp", std::string()) == "opacity") m["interpolation"] = "opacity";
-  if (model == "absorption_emission" || model == "williams_max") {
-    m["type"] = "absorption_emission";
-    const json tau = p.contains("tau") ? p["tau"] : p["rho"], color = p.contains("color") ? p["color"] : p["kappa"];
-    const bool normal = p.value("normalized", false);
-    m["extinction"] = normal ? normalized(tau) : tau;
-    m["color"] = normal ? normalized(color) : color;
+  if (model == "absorption_emission") {
+    m.update({{"type", "absorption_emission"}, {"extinction", p["tau"]}, {"color", p["color"]}});
+  } else if (model == "williams_max") {
+    m.update({{"type", "volume_density"},
+              {"density", p["rho"]},
+              {"chromaticity", p["kappa"]},
+              {"form", p.value("normalized", false) ? "normalised" : "extinction"}});
   } else if (model == "levoy" || model == "hernell") {
     m.update({{"type", "absorption_emission"},
               {"shaded", model == "levoy"},
