@@ -8,7 +8,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "backends/cpu/entry_index.h"
 #include "framework/interfaces/error.h"
 
 namespace dvrlab::cpu {
@@ -70,9 +69,6 @@ void Bindings::add(const KernelUnit& unit) {
     c.i = u.i;
     uniforms_.push_back(c);
   }
-  // An index lives as long as the unit's surface.
-  for (const EntrySurface& s : unit.surfaces)
-    surfaces_.push_back({s.name.c_str(), entry_index_of(s).get(), EntryIndex::find, EntryIndex::find64});
   for (const Buffer& b : unit.buffers)
     buffers_.push_back({b.name.c_str(), element_code(b.element), b.data.get(), b.count, b.data64.get()});
 }

@@ -29,6 +29,8 @@ inline constexpr const char* fp64_isa = "fp64";
 class Bindings {
  public:
   void add(const KernelUnit& unit);
+  /// A surface of a unit, with the index that answers for it.
+  void add(const dvr_entry_surface& surface) { surfaces_.push_back(surface); }
   dvr_bindings view() const;
 
  private:

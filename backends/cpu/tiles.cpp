@@ -12,6 +12,7 @@
 #include <new>
 
 #include "backends/cpu/denormals.h"
+#include "backends/cpu/entry_index.h"
 #include "backends/cpu/isa.h"
 
 namespace dvrlab::cpu {
@@ -20,6 +21,9 @@ namespace {
 
 dvr_bindings view_of(const FrameJob& job, Bindings& bindings) {
   for (const KernelUnit* unit : {&job.frame, &job.sampler, &job.estimator}) bindings.add(*unit);
+  // An index lives as long as the job's surface.
+  for (const EntrySurface& s : job.sampler.surfaces)
+    bindings.add({s.name.c_str(), entry_index_of(s).get(), EntryIndex::find, EntryIndex::find64});
   return bindings.view();
 }
 

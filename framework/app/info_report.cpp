@@ -79,8 +79,60 @@ InfoReport make_info(LoadedData data) {
   info.grid = dynamic_cast<const GridField*>(data.field.get());
   info.data = std::move(data);
   if (info.grid != nullptr) info.histogram = histogram_of(*info.grid);
+  info.mesh = dynamic_cast<const MeshField*>(info.data.field.get());
+  if (info.mesh != nullptr) info.summary = summary_of(*info.mesh);
   return info;
 }
+
+namespace {
+
+std::vector<std::vector<std::string>> mesh_rows(const MeshField& mesh, const MeshSummary& s) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 0; k < s.cells.size(); ++k)
+    if (s.cells[k] > 0)
+      rows.push_back({rows.empty() ? "cells" : "",
+                      std::to_string(s.cells[k]) + " of the shape " + info_of(static_cast<CellShape>(k)).name});
+  rows.push_back({"points", std::to_string(s.points)});
+  rows.push_back({"boundary", std::to_string(s.boundary_faces) + " triangles, " + std::to_string(s.pieces) +
+                                  (s.pieces == 1 ? " piece" : " pieces")});
+  if (s.crowded_faces > 0)
+    rows.push_back({"", std::to_string(s.crowded_faces) + " faces are shared by more than two cells"});
+  rows.push_back({"walked as", std::to_string(s.tetrahedra) + " tetrahedra (sampler " + mesh.sampler + ")"});
+  rows.push_back({"volume", number_text(s.volume)});
+  rows.push_back({"quality", "mean ratio of the tetrahedra: " + number_text(s.least_quality, 3) + " at the least, " +
+                                 number_text(s.median_quality, 3) + " in the median; " + std::to_string(s.poor) +
+                                 " below 0.1"});
+  if (s.bend > 0)
+    rows.push_back({"bend", "middle nodes lie up to " + number_text(s.bend, 3) + " edge lengths beside their edge"});
+  rows.push_back({"edges", number_text(mesh.voxel, 4) + " in the mean, the length unit \"voxel\""});
+  return rows;
+}
+
+nlohmann::ordered_json mesh_json(const MeshField& mesh, const MeshSummary& s) {
+  nlohmann::ordered_json cells = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < s.cells.size(); ++k)
+    if (s.cells[k] > 0) cells[info_of(static_cast<CellShape>(k)).name] = s.cells[k];
+  const MeshFaults& f = mesh.faults;
+  return {{"cells", cells},
+          {"points", s.points},
+          {"tetrahedra", s.tetrahedra},
+          {"boundary_faces", s.boundary_faces},
+          {"crowded_faces", s.crowded_faces},
+          {"pieces", s.pieces},
+          {"volume", s.volume},
+          {"quality", {{"least", s.least_quality}, {"median", s.median_quality}, {"below_0.1", s.poor}}},
+          {"bend", s.bend},
+          {"mean_edge", mesh.voxel},
+          {"faults",
+           {{"duplicate_cells", f.duplicate_cells},
+            {"collapsed_cells", f.collapsed_cells},
+            {"flat_cells", f.flat_cells},
+            {"inverted_cells", f.inverted_cells},
+            {"merged_points", f.merged_points},
+            {"unused_points", f.unused_points}}}};
+}
+
+}  // namespace
 
 std::string info_text(const InfoReport& info, int bins) {
   const Field& f = *info.data.field;
@@ -91,21 +143,25 @@ std::string info_text(const InfoReport& info, int bins) {
     rows.push_back({"grid", std::to_string(d[0]) + " x " + std::to_string(d[1]) + " x " + std::to_string(d[2]) +
                                 " grid points, " + std::to_string(info.grid->count()) + " voxels"});
     rows.push_back({"stored as", std::string(type_text(info.grid->type)) + ", " + byte_text(info.grid->bytes())});
+  } else if (info.mesh != nullptr) {
+    for (auto& row : mesh_rows(*info.mesh, *info.summary)) rows.push_back(std::move(row));
   } else {
     rows.push_back({"grid", "none: the field is evaluated at every sample (sampler " + f.sampler + ")"});
   }
   const auto range = range_of(f);
   rows.push_back({"values", number_text(range[0]) + " to " + number_text(range[1])});
-  if (f.slope != 1 || f.intercept != 0)
+  if (info.mesh == nullptr && (f.slope != 1 || f.intercept != 0))
     rows.push_back({"scaling", "value = " + number_text(f.slope) + " * stored + " + number_text(f.intercept)});
   const auto axes = axis_directions(f);
   if (info.grid != nullptr) {
     rows.push_back({"spacing", by({axes[0].spacing, axes[1].spacing, axes[2].spacing}) + " " + unit});
   }
-  rows.push_back({"box", by(box_of(f)) + " " + unit + ", from the first to the last grid point"});
-  rows.push_back({"first point", point(f.to_world.point(f.lo)) + " in the world"});
+  rows.push_back(
+      {"box", by(box_of(f)) + " " + unit + (info.mesh != nullptr ? "" : ", from the first to the last grid point")});
+  rows.push_back(
+      {info.mesh != nullptr ? "lowest corner" : "first point", point(f.to_world.point(f.lo)) + " in the world"});
   rows.push_back({"world", world_words(f)});
-  for (int a = 0; a < 3; ++a)
+  for (int a = 0; a < 3 && info.mesh == nullptr; ++a)
     rows.push_back({a == 0 ? "axes" : "", axis_words(axes[static_cast<std::size_t>(a)], a, f.anatomical)});
   rows.push_back({"sha256", f.sha256.empty() ? "none: a formula" : f.sha256});
   for (std::size_t n = 0; n < f.notes.size(); ++n) rows.push_back({n == 0 ? "notes" : "", f.notes[n]});
@@ -141,6 +197,7 @@ nlohmann::ordered_json info_json(const InfoReport& info, int bins) {
     j["bytes"] = info.grid->bytes();
     j["stored_type"] = type_text(info.grid->type);
   }
+  if (info.mesh != nullptr) j["mesh"] = mesh_json(*info.mesh, *info.summary);
   j["slope"] = f.slope;
   j["intercept"] = f.intercept;
   j["value_range"] = range_of(f);

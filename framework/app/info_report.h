@@ -7,13 +7,16 @@
 
 #include "framework/app/data_input.h"
 #include "framework/scene/histogram.h"
+#include "framework/scene/mesh/mesh_summary.h"
 
 namespace dvrlab {
 
 struct InfoReport {
   LoadedData data;
   const GridField* grid = nullptr;     // nullptr for a formula or a mesh
+  const MeshField* mesh = nullptr;     // nullptr for others
   std::optional<Histogram> histogram;  // of a grid
+  std::optional<MeshSummary> summary;  // of a mesh
 };
 
 InfoReport make_info(LoadedData data);

@@ -9,6 +9,9 @@
 namespace dvrlab {
 namespace {
 
+/// A mesh, and an estimator that steps matter to.
+constexpr const char* faces_patch = R"({"data":{"evaluate":"mesh","size":[5,5,5]},"estimator":{"type":"average"}})";
+
 using Value = nlohmann::json;
 using enum ParameterType;
 
@@ -259,6 +262,14 @@ std::vector<SectionType> declare() {
         {"termination", number, "", "1e-4", "[0,1)", "A ray ends when its largest transmittance is at most this.",
          pixels, "", "0.5"},
         {"skipping", boolean, "", "true", "", "Empty space is skipped.", speed, "", "false"}}},
+      {"sampling",
+       "faces",
+       "Segments from face to face of a mesh's cells, cut into equal parts where they are longer than a step.",
+       {{"step", number, "see unit", "1", "(0,inf)", "The longest part.", pixels, faces_patch, "0.1"},
+        {"unit", choice, "", "\"voxel\"", "voxel|world",
+         "Unit of the step; voxel: the mean length of the mesh's edges.", pixels, faces_patch, "\"world\""},
+        {"termination", number, "", "1e-4", "[0,1)", "A ray ends when its largest transmittance is at most this.",
+         pixels, faces_patch, "0.5"}}},
       {"sampling",
        "cells",
        "Segments on which the value is linear to a tolerance, cell by cell; for references (precision fp64).",

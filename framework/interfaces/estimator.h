@@ -28,6 +28,9 @@ struct EstimatorDeclaration {
   bool front_only = false;
   /// True: the kernel assumes that every segment has the nominal step.
   bool fixed_length = false;
+  /// Its tables are those of the nominal step; a shorter last segment is made from them by a rule of thumb. Where
+  /// segments have any length (meshes) it is refused.
+  bool nominal_length = false;
   /// `centre`: also needs v_prev and v_next (for |dv| terms).
   bool neighbours = false;
   /// The kernel integrates the transfer functions' intervals (medium_interval_at): a medium with tf "nodes" only.
@@ -66,6 +69,7 @@ struct TableLayout {
   bool lit_particles = false;  // m differs from 1
   int groups = 1;              // of four numbers, of the medium's own tables (BinMedium::groups without the barycentre)
   Precision precision = Precision::strict;  // of the kernel
+  bool walks = false;                       // segments have any length up to EstimatorContext::longest
 };
 
 /// What an estimator is told beside its own parameters. Values are stored units.
@@ -77,6 +81,7 @@ struct EstimatorContext {
   bool lit_particles;     // m differs from 1
   Precision precision;    // of the kernel
   std::string folder;     // of the plugin: where its own libraries lie
+  double longest;         // world units: segments have any length up to it; 0: the step, but for the last one of a ray
   const BinMedium* bins;  // of `mean_bins`, reshaped by shape_bins; empty without
 };
 

@@ -53,6 +53,7 @@ struct MeshField : Field {
   std::vector<std::uint32_t> node;   // indices of points
   MeshFaults faults;
   MeshGradient gradient = MeshGradient::vertex_inverse_distance;
+  double longest = 0;       // distance of two corners of a cell: no ray is longer in one
   double tolerance = 1e-3;  // of values in cells that are not linear, as a part of the field's range
   mutable std::shared_ptr<const Tetrahedra> tetrahedra;  // made at the first use
   std::uint64_t cells() const { return shape.size(); }

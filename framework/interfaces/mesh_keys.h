@@ -6,8 +6,8 @@
 
 namespace dvrlab {
 
-inline constexpr Parameter mesh_gradient_key{
-    "gradient",
+inline constexpr Parameter mesh_normals_key{
+    "normals",
     ParameterType::choice,
     "",
     R"("vertex_inverse_distance")",
@@ -50,7 +50,7 @@ inline constexpr Parameter mesh_tolerance_key{
     "0.1"};
 
 inline MeshGradient mesh_gradient(const ParameterSet& p) {
-  return static_cast<MeshGradient>(p.choice_index("gradient"));
+  return static_cast<MeshGradient>(p.choice_index("normals"));
 }
 
 }  // namespace dvrlab

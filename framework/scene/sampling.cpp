@@ -12,7 +12,9 @@
 
 namespace dvrlab {
 
-bool skips(const ResolvedCase& c) { return !samples_cells(c) && c.sampling.parameters.boolean("skipping"); }
+bool samples_faces(const ResolvedCase& c) { return c.sampling.type == "faces"; }
+
+bool skips(const ResolvedCase& c) { return c.sampling.type == "uniform" && c.sampling.parameters.boolean("skipping"); }
 
 double step_of(const ResolvedCase& c, const Field& field, std::vector<std::string>& notes) {
   if (samples_cells(c)) return field.voxel;
@@ -20,21 +22,23 @@ double step_of(const ResolvedCase& c, const Field& field, std::vector<std::strin
   if (p.text("unit") != "voxel") return p.number("step");
   const double step = p.number("step") * field.voxel;
   char text[120];
-  std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (smallest spacing %.9g)",
-                p.number("step"), step, field.voxel);
+  std::snprintf(text, sizeof(text), "sampling.step: %g voxel = %.9g world units (%.9g)", p.number("step"), step,
+                field.voxel);
   notes.emplace_back(text);
   return step;
 }
 
 void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
   const ParameterSet& p = c.sampling.parameters;
-  const double jitter = samples_cells(c) ? 0.0 : p.number("jitter");
+  const double jitter = c.sampling.type == "uniform" ? p.number("jitter") : 0.0;
   const auto background = c.image.vector3("background");
   const bool linear = c.image.text("space") == "linear";
   const auto decode = [&](double x) { return linear ? display_to_linear(x) : x; };
   unit.uniforms.insert(
       unit.uniforms.end(),
       {Uniform::real("frame_step", step), Uniform::real("frame_inv_step", 1.0 / step),
+       Uniform::constant_integer("frame_parts", samples_faces(c) ? 1 : 0),
+       Uniform::real("frame_parts_per_length", 1.0 / step),
        Uniform::constant_integer("frame_jitter_on", jitter > 0 ? 1 : 0), Uniform::real("frame_jitter", jitter),
        // The same 32 bits: the hash takes the seed as they are.
        Uniform::integer("frame_seed", static_cast<int>(static_cast<std::uint32_t>(c.top.integer("seed")))),

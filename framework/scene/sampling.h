@@ -13,6 +13,8 @@ namespace dvrlab {
 
 /// True where empty space may be skipped: it concerns samples at equal distances only.
 bool skips(const ResolvedCase& c);
+/// Segments end at the faces of cells, and are cut at a step.
+bool samples_faces(const ResolvedCase& c);
 
 /// The step in world units; a conversion from voxels is added to `notes`. Where segments follow the cells of the data,
 /// estimators are told a voxel.

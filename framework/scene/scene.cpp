@@ -23,6 +23,15 @@ namespace {
 
 std::string field_key(const ResolvedCase& c) { return c.config.at("data").dump() + "|" + c.base_folder; }
 
+/// Of a walking sampler, world units.
+double longest_segment(const ResolvedCase& c, const Field& field, double step) {
+  const auto* mesh = dynamic_cast<const MeshField*>(&field);
+  const Vector3 d =
+      field.to_world.vector({field.hi[0] - field.lo[0], field.hi[1] - field.lo[1], field.hi[2] - field.lo[2]});
+  const double longest = mesh != nullptr ? mesh->longest : std::hypot(d[0], d[1], d[2]);
+  return samples_faces(c) ? std::min(longest, step) : longest;
+}
+
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
   const std::string wanted = c.data.parameters.text("sampler");
@@ -76,7 +85,8 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
   std::vector<std::string> notes;
   const Medium medium = stored_medium(c, registry, field, notes);
   const auto light = local_shading(c, registry, field, c.image.text("space") == "linear").mode;
-  const TableLayout layout = table_layout(c, medium, table_options(c, field, medium, light));
+  TableLayout layout = table_layout(c, medium, table_options(c, field, medium, light));
+  layout.walks = dynamic_cast<const MeshField*>(&field) != nullptr;
   const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type);
   memory.state("estimator '" + c.estimator.type + "'",
                static_cast<double>(estimator.bytes_needed(c.estimator.parameters, layout)));
@@ -128,7 +138,8 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
 
   job.frame.plugin = "frame";
   add_camera(c.camera, *field, job.width, job.height, job.frame);
-  if (!samples_cells(c)) refuse_tiny_step(*field, scene.step, job.frame);
+  if (c.sampling.type == "uniform" && dynamic_cast<const MeshField*>(field.get()) == nullptr)
+    refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, scene.step, job.frame);
   const OccupiedBins occupied(scene.medium, options, declared.cells);
@@ -161,10 +172,18 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   if (samples_cells(c))
     add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
               OccupiedBins(scene.medium, options, 0), job.frame);
-  if (walks(job.sampler) && (declared.fixed_length || (declared.neighbours && surfaces)))
-    throw InputError("estimator.type: estimator \"" + c.estimator.type +
-                     "\" needs equally spaced samples, but sampler \"" + sampler +
-                     "\" ends its segments at the faces of cells; choose another estimator");
+  if (samples_faces(c) && !walks(job.sampler))
+    throw InputError("sampling.type: \"faces\" ends segments at the faces of a mesh's cells, but sampler \"" + sampler +
+                     "\" has none; use \"uniform\"");
+  if (walks(job.sampler) && c.sampling.type == "uniform")
+    scene.notes.emplace_back(
+        "sampling: segments end at the faces of cells; sampling.step is not used (type \"faces\" cuts at a step too)");
+  if (walks(job.sampler) && (declared.fixed_length || declared.nominal_length || (declared.neighbours && surfaces)))
+    throw InputError(
+        "estimator.type: estimator \"" + c.estimator.type +
+        "\" needs equally spaced samples with these parameters, but sampler \"" + sampler +
+        "\" ends its segments at the faces of cells; choose another estimator" +
+        (declared.nominal_length ? ", or one whose tables are not those of the step (lookup \"corrected\")" : ""));
   job.estimator.plugin = c.estimator.type;
   job.estimator.folder = c.estimator.folder;
   job.estimator.uniforms = uniforms_of(c.estimator.type, c.estimator.parameters);
@@ -176,10 +195,11 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
     bins = bin_groups(before_opaque, layout, options.lo, options.hi, declared.mean_bins, barycentre);
   estimator.shape_bins(c.estimator.parameters, scene.step, bins);
   add_means(bins, barycentre, job.precision == Precision::fp64, job.frame);
-  estimator.prepare(c.estimator.parameters,
-                    {&seen, options.lo, options.hi, scene.step, job.full,
-                     shading.mode == LocalShading::Mode::prescribed, job.precision, c.estimator.folder, &bins},
-                    job.estimator);
+  estimator.prepare(
+      c.estimator.parameters,
+      {&seen, options.lo, options.hi, scene.step, job.full, shading.mode == LocalShading::Mode::prescribed,
+       job.precision, c.estimator.folder, walks(job.sampler) ? longest_segment(c, *field, scene.step) : 0.0, &bins},
+      job.estimator);
   // A mean is six fetches per group; the bin of the next opaque value is one.
   job.table_fetches = declared.points * fetches_of_point(before_opaque, options) + declared.means * 6 * layout.count() +
                       (scene.medium.opaque.empty() ? 0 : 1) + job.estimator.fetches;

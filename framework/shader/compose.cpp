@@ -33,6 +33,7 @@ constexpr Part part_list[] = {
     {From::entry, "tetrahedra.kernel"},
     {From::sampler, ""},
     {From::framework, "steps.kernel"},
+    {From::framework, "parts.kernel"},
     {From::framework, "stream.glsl"},
     {From::stream, ""},
     {From::framework, "mean.kernel"},

@@ -22,11 +22,15 @@ class TreeBuilder {
     add(0, static_cast<int>(faces.size()));
   }
   std::vector<Buffer> take(const std::string& name) {
-    const std::uint64_t nodes = node_.size() / 4, faces = order_.size();
+    // The faces stand behind the nodes, four in an entry.
+    const std::uint64_t nodes = node_.size() / 4;
+    for (std::size_t k = 0; k < node_.size(); k += 4) node_[k + 3] = static_cast<std::int32_t>(nodes);
+    node_.insert(node_.end(), order_.begin(), order_.end());
+    node_.resize((node_.size() + 3) / 4 * 4, 0);
+    const std::uint64_t entries = node_.size() / 4;
     std::vector<Buffer> buffers;
     buffers.push_back(make_buffer(name + "_box", Element::vec4, std::move(box_), 2 * nodes));
-    buffers.push_back(make_buffer(name + "_node", Element::ivec4, std::move(node_), nodes));
-    buffers.push_back(make_buffer(name + "_order", Element::i32, std::move(order_), faces));
+    buffers.push_back(make_buffer(name + "_node", Element::ivec4, std::move(node_), entries));
     return buffers;
   }
 
@@ -114,7 +118,9 @@ std::string entry_definition(const EntrySurface& surface) {
     ivec4 node = fetchi4_NAME_node(n);
     if (enter <= leave && leave >= e.from && enter <= e.s) {
       for (int k = 0; k < node.z; ++k) {
-        int face = fetchi_NAME_order(node.y + k);
+        int at = node.y + k;
+        ivec4 four = fetchi4_NAME_node(node.w + (at >> 2));
+        int face = (at & 3) == 0 ? four.x : (at & 3) == 1 ? four.y : (at & 3) == 2 ? four.z : four.w;
         entry_hit h = NAME_hit(f, o, face);
         if (entry_is_next(e, h, face)) {
           e.s = h.s;

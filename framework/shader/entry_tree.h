@@ -10,10 +10,10 @@
 
 namespace dvrlab {
 
-/// Buffers of a surface `s`: s_box (two per node: lower and upper corner, a little outside of the faces), s_node (skip:
-/// the node after all below this one; first, count: its faces in s_order, count 0 but for leaves) and s_order (faces).
-/// Nodes are in the order of a depth-first visit. Built at the first use and kept as long as the surface's faces are.
-/// Thread-safe.
+/// Buffers of a surface `s`: s_box (two per node: lower and upper corner, a little outside of the faces) and s_node
+/// (skip: the node after all below this one; first, count: its faces in the list behind the nodes, count 0 but for
+/// leaves; the entry at which that list begins). Nodes are in the order of a depth-first visit. Built at the first use
+/// and kept as long as the surface's faces are. Thread-safe.
 std::shared_ptr<const std::vector<Buffer>> entry_tree_of(const EntrySurface& surface);
 
 /// GLSL: what a sampler's text needs to be declared in front of it, and what has to follow it.

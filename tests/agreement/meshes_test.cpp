@@ -68,15 +68,15 @@ json with(json data, const char* key, const json& value) {
 
 INSTANTIATE_TEST_SUITE_P(
     Meshes, AgreementOfMeshes,
-    testing::Values(
-        MeshCase{"bluntfin", bluntfin}, MeshCase{"bluntfin_shaded", bluntfin, {{"type", "exact"}}, true},
-        MeshCase{"bluntfin_cell_gradients", with(bluntfin, "gradient", "cell"), {{"type", "power_series"}}, true},
-        MeshCase{"bluntfin_rk4", bluntfin, {{"type", "rk4"}}},
-        MeshCase{"bluntfin_average", bluntfin, {{"type", "average"}, {"rule", "mean_density"}}}, MeshCase{"disk", disk},
-        MeshCase{"disk_shaded", disk, {{"type", "exact"}}, true},
-        MeshCase{"disk_cell_gradients", with(disk, "gradient", "cell"), {{"type", "approximative"}}, true},
-        MeshCase{"cylinder", cylinder}, MeshCase{"cylinder_shaded", cylinder, {{"type", "exact"}}, true},
-        MeshCase{"notch", notch}, MeshCase{"notch_shaded", notch, {{"type", "exact"}}, true}),
+    testing::Values(MeshCase{"bluntfin", bluntfin}, MeshCase{"bluntfin_shaded", bluntfin, {{"type", "exact"}}, true},
+                    MeshCase{
+                        "bluntfin_cell_gradients", with(bluntfin, "normals", "cell"), {{"type", "power_series"}}, true},
+                    MeshCase{"bluntfin_rk4", bluntfin, {{"type", "rk4"}}},
+                    MeshCase{"bluntfin_average", bluntfin, {{"type", "average"}, {"rule", "mean_density"}}},
+                    MeshCase{"disk", disk}, MeshCase{"disk_shaded", disk, {{"type", "exact"}}, true},
+                    MeshCase{"disk_cell_gradients", with(disk, "normals", "cell"), {{"type", "approximative"}}, true},
+                    MeshCase{"cylinder", cylinder}, MeshCase{"cylinder_shaded", cylinder, {{"type", "exact"}}, true},
+                    MeshCase{"notch", notch}, MeshCase{"notch_shaded", notch, {{"type", "exact"}}, true}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -93,10 +93,10 @@ int init(void* frame, const dvr_bindings* bindings, int, module_calls* calls, ch
 
 #if DVR_WALKING
 typedef Walker largest;
-constexpr unsigned walk_bytes = sizeof(Walker::walk_state);
+constexpr unsigned walk_bytes = sizeof(Walker::walk_memory);
 #elif defined(DVR_ISA_fp64)
 typedef Cells_f32 largest;
-constexpr unsigned walk_bytes = sizeof(Cells_f32::walk_state);
+constexpr unsigned walk_bytes = sizeof(Cells_f32::walk_memory);
 static_assert(sizeof(Cells_f32) >= sizeof(Sampler_f32) && alignof(Cells_f32) >= alignof(Sampler_f32));
 #else
 typedef Sampler_f32 largest;

@@ -152,6 +152,10 @@ void judge_cells(MeshField& mesh) {
   for (std::uint64_t c = 0; c < mesh.cells(); ++c) {
     const CellShapeInfo& shape = info_of(mesh.shape[c]);
     bool flat = false;
+    const auto corners = mesh.nodes_of(c).first(static_cast<std::size_t>(shape.corners));
+    for (std::size_t a = 0; a < corners.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        mesh.longest = std::max(mesh.longest, length_of(mesh.point[corners[a]], mesh.point[corners[b]]));
     for (const auto& t : tetrahedra_of_cell(shape, mesh.node.data() + mesh.first[c])) {
       const auto at = [&](std::size_t k) -> const Vector3& { return mesh.point[static_cast<std::size_t>(t[k])]; };
       double longest = 0;

@@ -68,7 +68,7 @@ std::uint64_t tetrahedra_bytes(const MeshField& mesh) {
   return tetrahedra * 64 + mesh.point.size() * 48;
 }
 
-void add_slopes(const MeshField& mesh, const std::string& name, KernelUnit& unit) {
+std::vector<double> slope_rows(const MeshField& mesh) {
   const Tetrahedra& t = tetrahedra_in(mesh);
   const bool cells = mesh.gradient == MeshGradient::cell;
   const std::vector<Vector3> g =
@@ -80,7 +80,7 @@ void add_slopes(const MeshField& mesh, const std::string& name, KernelUnit& unit
     const Vector3& x = g[cells && !t.cell.empty() ? t.cell[j] : j];
     rows.insert(rows.end(), {x[0] / mesh.slope, x[1] / mesh.slope, x[2] / mesh.slope, 0.0});
   }
-  unit.buffers.push_back(vec4_buffer(name, std::move(rows)));
+  return rows;
 }
 
 }  // namespace dvrlab

@@ -11,9 +11,8 @@ void add_tetrahedra(const MeshField& mesh, KernelUnit& unit);
 /// Bytes of them, and of what the host keeps to make them.
 std::uint64_t tetrahedra_bytes(const MeshField& mesh);
 
-/// Adds a buffer of gradients, stored value per world length: (x, y, z, 0) of each tetrahedron (MeshGradient::cell) or
-/// of each vertex.
-void add_slopes(const MeshField& mesh, const std::string& name, KernelUnit& unit);
+/// Gradients, stored value per world length: (x, y, z, 0) of each tetrahedron (MeshGradient::cell) or of each vertex.
+std::vector<double> slope_rows(const MeshField& mesh);
 
 /// World to sampler coordinates: a shift and one factor (finish_mesh).
 Vector3 sampler_point(const MeshField& mesh, const Vector3& p);

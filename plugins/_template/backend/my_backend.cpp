@@ -49,8 +49,13 @@ class Module {
     state_ = ::operator new((info->frame_bytes + align - 1) / align * align, std::align_val_t(align));
     align_ = std::align_val_t(align);
     char missing[128] = "";
-    const dvr_bindings all{bindings.uniforms.data(), int(bindings.uniforms.size()), bindings.buffers.data(),
-                           int(bindings.buffers.size())};
+    // No surfaces: a mesh's sampler will say that its own is missing.
+    const dvr_bindings all{bindings.uniforms.data(),
+                           int(bindings.uniforms.size()),
+                           bindings.buffers.data(),
+                           int(bindings.buffers.size()),
+                           nullptr,
+                           0};
     if (info->init(state_, &all, features, &calls, missing) != 0)
       throw InputError("backend my_backend: the kernel " + file + " reads \"" + missing + "\", which nobody provides");
   }

@@ -16,8 +16,8 @@ namespace {
 
 using enum ParameterType;
 
-constexpr Parameter mesh_gradient_key_of_procedural = [] {
-  Parameter key = mesh_gradient_key;
+constexpr Parameter mesh_normals_key_of_procedural = [] {
+  Parameter key = mesh_normals_key;
   key.only_with = "evaluate=mesh";
   key.live_in =
       R"({"data":{"evaluate":"mesh","size":[5,5,5]},"optical_model":{"shaded":true},"estimator":{"type":"direct"},"illumination":[{"type":"blinn_phong"}]})";
@@ -47,7 +47,7 @@ constexpr Parameter parameters[] = {
      R"({"data":{"evaluate":"mesh","size":[5,5,5]}})", "0.2", "evaluate=mesh"},
     {"jitter_seed", integer, "", "1", "[0,4294967295]", "Which of the ways to move them.", Affects::pixels,
      R"({"data":{"evaluate":"mesh","size":[5,5,5],"jitter":0.2}})", "2", "evaluate=mesh"},
-    mesh_gradient_key_of_procedural,
+    mesh_normals_key_of_procedural,
     mesh_tolerance_key_of_procedural,
     {"bounds", json, "world", "[[-1,-1,-1],[1,1,1]]", "", "Lower and upper corner of the box, [[x,y,z],[x,y,z]].",
      Affects::pixels, "{}", "[[-1,-1,-1],[1,1,0.5]]", "",

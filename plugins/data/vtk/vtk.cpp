@@ -34,7 +34,7 @@ constexpr Parameter parameters[] = {
     file_key, live(mesh_array_key, "{}", R"("velocity_norm")"),
     live(mesh_component_key, R"({"data":{"array":"velocity","component":"0"}})", R"("norm")"),
     live(
-        mesh_gradient_key,
+        mesh_normals_key,
         R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
         R"("cell")"),
     live(mesh_tolerance_key, "{}", "0.2")};

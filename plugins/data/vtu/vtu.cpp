@@ -37,7 +37,7 @@ constexpr Parameter parameters[] = {
     file_key, live(mesh_array_key, "{}", R"("Pres")"),
     live(mesh_component_key, R"({"data":{"array":"V","component":"0"}})", R"("norm")"),
     live(
-        mesh_gradient_key,
+        mesh_normals_key,
         R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
         R"("cell")"),
     live(mesh_tolerance_key, "{}", "0.2")};

@@ -1,5 +1,8 @@
 // Full pre-integration: two-dimensional tables of all segments of the nominal length, and how they are looked up.
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
 #include <string>
 
 #include "framework/interfaces/error.h"
@@ -37,6 +40,9 @@ constexpr Parameter parameters[] = {
 
 constexpr long long most_published_values = 512;
 
+/// Tables where segments have any length: of the longest one, of half of it, and so on.
+constexpr int lengths_of_walks = 8;
+
 /// The degree of the light factors in the position, by the modes of light_of_segment.
 int degree_of(const ParameterSet& p) {
   constexpr int degrees[] = {0, 1, 0, 3};
@@ -65,6 +71,7 @@ class Preintegrated : public EstimatorPlugin {
     d.fp64 = false;  // its table holds floats
     // A ratio jumps where an entry begins to hold a Dirac term; the corrected look-up meets none.
     d.cuts_diracs = p.text("lookup") == "corrected";
+    d.nominal_length = !d.cuts_diracs;
     d.mean_bins = static_cast<int>(p.integer("depth_table_size"));
     d.cells = std::min(d.mean_bins, static_cast<int>(p.integer("table_size")) - 1);
     d.means = p.text("lookup") == "corrected" ? 1 : 0;  // plain: only where a segment has another length
@@ -80,7 +87,7 @@ class Preintegrated : public EstimatorPlugin {
     const TableRequest request =
         request_of(layout.terms, layout.full, layout.lit_particles, p.text("lookup") == "plain", degree_of(p), unused);
     // Beside the table a published one, or an older one that may be kept; every thread of a build has its own memory.
-    const std::uint64_t bytes = Table::bytes(n, request);
+    const std::uint64_t bytes = Table::bytes(n, request) * (layout.walks ? lengths_of_walks : 1);
     const bool copies = p.text("variant") != "corrected" || p.text("update") == "partial";
     const std::uint64_t beside = copies ? bytes : std::min(bytes, most_bytes_kept);
     return bytes + beside + (std::uint64_t{64} << 20);
@@ -92,14 +99,33 @@ class Preintegrated : public EstimatorPlugin {
     Groups groups;
     const TableRequest request =
         request_of(context.medium->terms(), context.full, context.lit_particles, plain, degree_of(p), groups);
-    auto table = table_of(*context.medium, context.value_min, context.value_max, n, request, context.step,
-                          p.text("update") == "partial", {context.folder});
-    const auto variant = static_cast<Variant>(p.choice_index("variant"));
-    if (variant != Variant::corrected) table = published_table(*table, variant, 0);
+    const auto table_at = [&](double h) {
+      return table_of(*context.medium, context.value_min, context.value_max, n, request, h,
+                      p.text("update") == "partial", {context.folder});
+    };
+    const std::uint64_t entries =
+        2 * static_cast<std::uint64_t>(request.groups()) * static_cast<std::uint64_t>(table_entries(n));
+    const int lengths = context.longest > 0 ? lengths_of_walks : 1;
+    std::shared_ptr<const void> numbers;
+    if (lengths > 1) {
+      const auto all = std::make_shared_for_overwrite<float[]>(4 * entries * lengths_of_walks);
+      for (int k = 0; k < lengths; ++k) {
+        const auto table = table_at(std::ldexp(context.longest, -k));
+        std::memcpy(all.get() + 4 * entries * static_cast<std::uint64_t>(k), table->memory().get(), 16 * entries);
+      }
+      numbers = all;
+    } else {
+      auto table = table_at(context.step);
+      const auto variant = static_cast<Variant>(p.choice_index("variant"));
+      if (variant != Variant::corrected) table = published_table(*table, variant, 0);
+      numbers = {table, table->memory().get()};
+    }
     const auto integer = [&](const char* name, int value) {
       unit.uniforms.push_back(Uniform::constant_integer(std::string("preintegrated_") + name, value));
     };
-    unit.fetches = 3 * request.groups();
+    unit.fetches = (lengths > 1 ? 6 : 3) * request.groups();
+    integer("lengths", lengths);
+    unit.uniforms.push_back(Uniform::real("preintegrated_longest", context.longest));
     integer("values", n);
     integer("block", static_cast<int>(table_entries(n)));
     integer("groups", request.groups());
@@ -111,12 +137,8 @@ class Preintegrated : public EstimatorPlugin {
     unit.uniforms.push_back(Uniform::real("preintegrated_lo", context.value_min));
     unit.uniforms.push_back(Uniform::real("preintegrated_scale", (n - 1) / (context.value_max - context.value_min)));
     unit.uniforms.push_back(Uniform::real("preintegrated_step", context.step));
-    unit.buffers.push_back(
-        {"preintegrated_table",
-         Element::vec4,
-         {table, table->memory().get()},
-         2 * static_cast<std::uint64_t>(request.groups()) * static_cast<std::uint64_t>(table_entries(n)),
-         nullptr});
+    unit.buffers.push_back({"preintegrated_table", Element::vec4, std::move(numbers),
+                            entries * static_cast<std::uint64_t>(lengths), nullptr});
   }
 };
 

@@ -103,18 +103,27 @@ class CurvedMesh : public SamplerPlugin {
       centres.insert(centres.end(), {middle[0], middle[1], middle[2], 0.0});
       if (!cells) add_corner_gradients(*mesh, c, of_vertex, bends);
     }
+    // One table: the bindings of a GPU are few.
+    const auto entries = [&] { return static_cast<int>(rows.size() / 4); };
+    const auto append = [&](const std::vector<double>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
+    const int centres_at = entries();
+    append(centres);
+    const int bends_at = entries();
+    append(bends);
+    const int slopes_at = entries();
+    append(slope_rows(*mesh));
     KernelUnit unit;
     unit.uniforms = {Uniform::constant_integer("curved_mesh_gradients", cells ? 0 : 1),
                      Uniform::constant_integer("curved_mesh_terms", terms),
                      Uniform::constant_integer("curved_mesh_distorted", any_distorted ? 1 : 0),
                      Uniform::real("curved_mesh_tolerance", mesh->tolerance),
-                     Uniform::real("curved_mesh_inv_size", 1 / mesh->to_world.m[0])};
+                     Uniform::real("curved_mesh_inv_size", 1 / mesh->to_world.m[0]),
+                     Uniform::integer("curved_mesh_centres", centres_at),
+                     Uniform::integer("curved_mesh_bends", bends_at),
+                     Uniform::integer("curved_mesh_slopes", slopes_at)};
     add_tetrahedra(*mesh, unit);
-    add_slopes(*mesh, "curved_mesh_slope", unit);
     unit.buffers.push_back(cell_buffer(*mesh, elements));
-    unit.buffers.push_back(vec4_buffer("curved_mesh_element", std::move(rows)));
-    unit.buffers.push_back(vec4_buffer("curved_mesh_centre", std::move(centres)));
-    unit.buffers.push_back(vec4_buffer("curved_mesh_bend", std::move(bends)));
+    unit.buffers.push_back(vec4_buffer("curved_mesh_table", std::move(rows)));
     return unit;
   }
 };

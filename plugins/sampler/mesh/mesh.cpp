@@ -2,6 +2,7 @@
 #include "framework/interfaces/mesh.h"
 
 #include "framework/interfaces/error.h"
+#include "framework/scene/buffers.h"
 #include "framework/scene/mesh/tetrahedra_unit.h"
 
 namespace dvrlab::mesh {
@@ -26,7 +27,7 @@ class Mesh : public SamplerPlugin {
     KernelUnit unit;
     unit.uniforms = {Uniform::constant_integer("mesh_gradients", mesh->gradient == MeshGradient::cell ? 0 : 1)};
     add_tetrahedra(*mesh, unit);
-    add_slopes(*mesh, "mesh_slope", unit);
+    unit.buffers.push_back(vec4_buffer("mesh_slope", slope_rows(*mesh)));
     return unit;
   }
 };
