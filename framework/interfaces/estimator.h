@@ -53,6 +53,8 @@ struct EstimatorDeclaration {
   bool fp64 = true;
   /// Its shading asks for the barycentre of the surfaces in a segment (mean_surface_place).
   bool barycentre = false;
+  /// It divides sources by extinctions: a medium that glows without extinction is refused.
+  bool chromaticity = false;
   /// The framework cuts segments at Dirac terms: the kernel never sees one inside a segment, and prepare() none at all.
   bool cuts_diracs = false;
   /// The terms that it can integrate, Terms::bit(...) | ...

@@ -68,6 +68,8 @@ struct Medium {
   bool empty(double a, double b) const;
   /// True if S_l, W_l, S_s, W_s are 0 and there is no Dirac and no shaded opaque value on the closed interval [a, b].
   bool unshaded(double a, double b) const;
+  /// True if some value emits without extinction, so that its chromaticity, source by extinction, is infinite.
+  bool glows_without_extinction() const;
   /// True if any value is lit by a surface: S, W, a Dirac.
   bool shaded() const;
   /// The same medium with more interval borders.

@@ -98,6 +98,11 @@ void refuse_impossible(const ResolvedCase& c, const Medium& medium, const Estima
     throw InputError("estimator.type: estimator \"" + c.estimator.type + "\" cannot integrate the terms " +
                      missing.text() + " of optical model \"" + c.optical_model.type +
                      "\"; choose another estimator (dvrlab list estimator) or remove these terms" + hint);
+  if (d.chromaticity && medium.glows_without_extinction())
+    throw InputError(
+        "estimator.type: estimator \"" + c.estimator.type +
+        "\" averages chromaticities with these parameters, but optical model \"" + c.optical_model.type +
+        "\" emits where there is no extinction, so that they are infinite; choose another rule or estimator");
   if (samples_cells(c) && (d.fixed_length || (d.neighbours && medium.terms().surfaces())))
     throw InputError("sampling.type: \"cells\" ends segments where the field is no longer linear, but estimator \"" +
                      c.estimator.type + "\" needs equally spaced samples for the terms of optical model \"" +

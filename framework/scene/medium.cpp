@@ -85,6 +85,17 @@ Terms Medium::terms() const {
   return r;
 }
 
+bool Medium::glows_without_extinction() const {
+  for (const MediumInterval& i : interval)
+    for (int ch = 0; ch < 3; ++ch) {
+      const auto& tau = i.c[std::size_t(column(Term::tau_l, ch))];
+      const auto& E = i.c[std::size_t(column(Term::E, ch))];
+      for (const double t : {0.0, 0.5, 1.0})
+        if (value_of(tau, t) <= 0 && value_of(E, t) > 0) return true;
+    }
+  return false;
+}
+
 bool Medium::empty(double a, double b) const {
   return zero_on(*this, a, b, 0, medium_columns) && !dirac_in(*this, a, b) && !opaque_in(*this, a, b, false);
 }

@@ -92,12 +92,22 @@ TEST_P(Mesh, RaysThroughEdgesAndVertices) {
                             {"up", direction[2] == -1 ? json{0, 1, 0} : json{0, 0, 1}},
                             {"height", 33.0 / 16}};
         const FrameImage mesh = image(config);
-        json formula = config;
-        formula["data"] = grid_data();
-        formula["data"]["bounds"] = data["bounds"];
-        const FrameImage box = image(formula);
-        for (std::size_t p = 0; p < 33 * 33; ++p)
-          ASSERT_NEAR(depth_of(mesh, p), depth_of(box, p), 1e-5) << cells << direction.dump() << " pixel " << p;
+        const auto box_of = [&](double side) {
+          json formula = config;
+          formula["data"] = grid_data();
+          formula["data"]["bounds"] = {{-side, -side, -side}, {side, side, side}};
+          return image(formula);
+        };
+        const FrameImage box = box_of(1), smaller = box_of(1 - 1e-5), larger = box_of(1 + 1e-5);
+        std::size_t judged = 0;
+        for (std::size_t p = 0; p < 33 * 33; ++p) {
+          // A ray in a face of the box may count as inside or as outside.
+          const bool tangent = std::abs(depth_of(smaller, p) - depth_of(larger, p)) > 1e-3;
+          judged += !tangent && depth_of(box, p) > 0;
+          if (!tangent)
+            ASSERT_NEAR(depth_of(mesh, p), depth_of(box, p), 1e-5) << cells << direction.dump() << " pixel " << p;
+        }
+        EXPECT_GT(judged, 300u);
       }
     }
   })

@@ -47,6 +47,12 @@ class Scanner {
     l.erase(std::find_if(l.rbegin(), l.rend(), solid).base(), l.end());
     return l;
   }
+  /// What is left of this line, and all lines up to an empty one.
+  void skip_paragraph() {
+    line();
+    while (at_ < text_.size() && !line().empty()) {
+    }
+  }
   std::uint64_t natural(const std::string& where) {
     const std::string w = word();
     std::uint64_t x = 0;
@@ -192,8 +198,7 @@ class Sections {
         throw InputError(where(key) + ": is for " + std::to_string(entries_) + ", but there are " +
                          std::to_string(expected) + (of_cells_ ? " cells" : " points"));
     } else if (key == "METADATA") {
-      while (!s_.done() && !s_.line().empty()) {
-      }
+      s_.skip_paragraph();
     } else if (key == "FIELD") {
       read_field();
     } else {

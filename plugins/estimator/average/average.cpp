@@ -33,8 +33,7 @@ class Average : public EstimatorPlugin {
     d.points = 2;
     d.means = p.text("rule") == "exact_depth" ? 1 : 0;
     d.handles = Terms::every_column | Terms::rgb_bit;
-    // A chromaticity is a source per extinction: what glows without extinction has none.
-    if (p.text("rule") != "trapezoid") d.handles &= ~Terms::bit(Term::E);
+    d.chromaticity = p.text("rule") != "trapezoid";
     return d;
   }
   double dirac_pulse(const ParameterSet& p) const override { return p.number("approximate_dirac"); }
