@@ -11,6 +11,9 @@ namespace {
 
 /// A mesh, and an estimator that steps matter to.
 constexpr const char* faces_patch = R"({"data":{"evaluate":"mesh","size":[5,5,5]},"estimator":{"type":"average"}})";
+// The default step is longer than any segment of this mesh; a unit shows with a shorter one.
+constexpr const char* faces_unit_patch =
+    R"({"data":{"evaluate":"mesh","size":[5,5,5]},"estimator":{"type":"average"},"sampling":{"step":0.3}})";
 
 using Value = nlohmann::json;
 using enum ParameterType;
@@ -267,7 +270,7 @@ std::vector<SectionType> declare() {
        "Segments from face to face of a mesh's cells, cut into equal parts where they are longer than a step.",
        {{"step", number, "see unit", "1", "(0,inf)", "The longest part.", pixels, faces_patch, "0.1"},
         {"unit", choice, "", "\"voxel\"", "voxel|world",
-         "Unit of the step; voxel: the mean length of the mesh's edges.", pixels, faces_patch, "\"world\""},
+         "Unit of the step; voxel: the mean length of the mesh's edges.", pixels, faces_unit_patch, "\"world\""},
         {"termination", number, "", "1e-4", "[0,1)", "A ray ends when its largest transmittance is at most this.",
          pixels, faces_patch, "0.5"}}},
       {"sampling",

@@ -105,7 +105,7 @@ const std::string scalars = "POINT_DATA 8\nSCALARS s double 1\nLOOKUP_TABLE defa
 TEST(Vtk, Sections) {
   const std::string cells = "CELLS 1 9\n8 0 1 2 3 4 5 6 7\n", types = "CELL_TYPES 1\n11\n";
   const std::string more =
-      "METADATA\nINFORMATION 0\n\nVECTORS a%20b float\n1 2 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 3 4\n"
+      "METADATA\nINFORMATION 0\n\nVECTORS a%20b float\n1 2 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 3 4\n"
       "CELL_DATA 1\nFIELD f 2\np 1 1 int\n7\nq 2 1 double\n0.5 1.5\n";
   const std::string text = legacy(cells, types, scalars + more);
   const std::string file = file_of(".vtk", Bytes(text.begin(), text.end()));

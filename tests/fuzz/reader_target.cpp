@@ -8,6 +8,7 @@
 #include "framework/config/resolve.h"
 #include "framework/interfaces/field.h"
 #include "framework/plugin/registry.h"
+#include "framework/scene/mesh/elements.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {
@@ -48,6 +49,9 @@ void read(const DataPlugin& plugin, const PluginDescriptor& descriptor, const st
   if (grid != nullptr)
     for (const int k : {0, grid->dims[2] - 1})
       for (int j = 0; j < grid->dims[1]; ++j) sum = sum + grid->at(0, j, k) + grid->at(grid->dims[0] - 1, j, k);
+  // And every cell of a mesh must have nodes.
+  if (const auto* mesh = dynamic_cast<const MeshField*>(field.get()))
+    for (std::size_t c = 0; c < mesh->cells(); ++c) sum = sum + evaluate(element_of(*mesh, c), {0.25, 0.25, 0.25})[3];
 }
 
 }  // namespace

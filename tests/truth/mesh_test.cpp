@@ -104,8 +104,9 @@ TEST_P(Mesh, RaysThroughEdgesAndVertices) {
           // A ray in a face of the box may count as inside or as outside.
           const bool tangent = std::abs(depth_of(smaller, p) - depth_of(larger, p)) > 1e-3;
           judged += !tangent && depth_of(box, p) > 0;
-          if (!tangent)
+          if (!tangent) {
             ASSERT_NEAR(depth_of(mesh, p), depth_of(box, p), 1e-5) << cells << direction.dump() << " pixel " << p;
+          }
         }
         EXPECT_GT(judged, 300u);
       }

@@ -21,7 +21,7 @@ constexpr Parameter parameters[] = {
      "Optical density rho: nodes [value, rho], one for all channels, or [value, r, g, b]; per length_unit, or in [0, "
      "1] "
      "with form normalised.",
-     pixels, "", "[[0,0.1],[1,2,1,0.5]]"},
+     pixels, "", "[[0,0.1,0.1,0.3],[1,2,1,0.5]]"},
     {"chromaticity", nodes, "", "null", "1|3", "Chromaticity kappa: nodes [value, kappa] or [value, r, g, b].", pixels,
      "", "[[0,1,0.5,0.2],[1,0.1,0.6,0.9]]"},
     {"red.density", nodes, "1/length", "null", "1", "Density of the red channel with nodes of its own.", pixels,
