@@ -325,6 +325,8 @@ TEST_P(PowerSeries, UnlitTermsCountOnce) {
     for (const char* shading : {"constant", "linear", "nonlinear"}) {
       for (int order : {1, 2, 4}) {
         if (order > 1 && model == particles) continue;
+        // A GPU compiles a shader for each: there a few will do.
+        if (GetParam().backend["type"] != "cpu" && (order == 2 || shading == std::string("constant"))) continue;
         for (bool lit : {true, false}) {
           json c = config;
           c["optical_model"] = model;
