@@ -5,6 +5,16 @@
 include(DvrlabKernelModule)
 set(DVRLAB_KINDS data sampler optical_model estimator illumination metric backend)
 
+# dvrlab_ship(PATTERN): for a plugin.cmake. The files of data/ that match stand beside the plugin tree as they do in the source
+# tree, so that the example works in both.
+function(dvrlab_ship pattern)
+  set(data ${dir}/../../../data)
+  file(GLOB shipped RELATIVE ${data} CONFIGURE_DEPENDS ${data}/${pattern})
+  foreach(file ${shipped})
+    configure_file(${data}/${file} ${ARG_OUTPUT}/../data/${file} COPYONLY)
+  endforeach()
+endfunction()
+
 # dvrlab_add_plugin(DIR [KIND kind] [NAME name] [OUTPUT root]): KIND and NAME are the folders' names by default; the
 # plugin lies in <root>/<kind>/<name>, by default below DVRLAB_PLUGIN_OUTPUT.
 function(dvrlab_add_plugin dir)

@@ -16,7 +16,7 @@ inline constexpr Parameter mesh_normals_key{
     "around, "
     "linear between, which may weigh a cell with the inverse of its centre's distance.",
     Affects::pixels,
-    "",
+    R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
     R"("cell")"};
 
 inline constexpr Parameter mesh_array_key{"array",
@@ -48,6 +48,13 @@ inline constexpr Parameter mesh_tolerance_key{
     Affects::pixels,
     "",
     "0.1"};
+
+/// A shared key with what shows it in a reader's own example: `live_in` and `live_value` of Parameter.
+constexpr Parameter seen_in(Parameter key, const char* live_in, const char* live_value) {
+  key.live_in = live_in;
+  key.live_value = live_value;
+  return key;
+}
 
 inline MeshGradient mesh_gradient(const ParameterSet& p) {
   return static_cast<MeshGradient>(p.choice_index("normals"));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <filesystem>
+#include <string_view>
 
 #include "framework/interfaces/error.h"
 
@@ -21,6 +23,18 @@ Compression compression_of(const Attributes& root) {
 }
 
 }  // namespace
+
+bool is_file_of(const std::string& type, const std::string& end, const std::string& path,
+                std::span<const std::byte> start) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return false;
+  std::string last = path.substr(path.size() - std::min(path.size(), end.size()));
+  std::transform(last.begin(), last.end(), last.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+  const auto root = text.find("<VTKFile");
+  return last == end ||
+         (root != std::string_view::npos && text.find("\"" + type + "\"", root) != std::string_view::npos);
+}
 
 bool FileReader::open(const XmlElement& e) {
   const Attributes a(e, name_);

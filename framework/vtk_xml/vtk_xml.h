@@ -33,6 +33,11 @@ struct XmlFile {
   bool appended_base64 = false;
 };
 
+/// Whether a file is one of them: by the end of its name (".vti"), or by the root's type ("ImageData") in its first
+/// bytes. Folders are none.
+bool is_file_of(const std::string& type, const std::string& end, const std::string& path,
+                std::span<const std::byte> start);
+
 /// Reads the root, every <DataArray> that a format wants, and the appended section; a format adds its own elements.
 class FileReader : public XmlVisitor {
  public:

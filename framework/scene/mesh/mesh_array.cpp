@@ -51,9 +51,17 @@ std::size_t array_of(const std::vector<MeshArray>& arrays, const ParameterSet& p
   throw InputError(name + ": holds several arrays; choose one with " + key + ": " + list_of(arrays));
 }
 
+/// "component 2 of \"velocity\"", for notes.
+std::string text_of(const MeshArray& array, const MeshChoice& choice) {
+  const std::string name = "\"" + array.name + "\"";
+  if (choice.component < 0) return "the norm of " + name;
+  return array.components > 1 ? "component " + std::to_string(choice.component) + " of " + name : name;
+}
+
 }  // namespace
 
-MeshChoice choose_mesh_array(const std::vector<MeshArray>& arrays, const ParameterSet& p, const std::string& name) {
+MeshChoice choose_mesh_array(const std::vector<MeshArray>& arrays, const ParameterSet& p, const std::string& name,
+                             std::vector<std::string>& notes) {
   MeshChoice choice;
   choice.array = array_of(arrays, p, name);
   const MeshArray& a = arrays[choice.array];
@@ -74,13 +82,19 @@ MeshChoice choose_mesh_array(const std::vector<MeshArray>& arrays, const Paramet
       throw InputError(key + ": is \"" + word + "\"; must be \"0\" to \"" + std::to_string(a.components - 1) +
                        "\", or \"norm\" (" + has + ")");
   }
+  if (arrays.size() > 1 || a.components > 1)
+    notes.push_back("array " + text_of(a, choice) + " of " + std::to_string(arrays.size()) + " is read");
   return choice;
 }
 
-std::string text_of(const MeshArray& array, const MeshChoice& choice) {
-  const std::string name = "\"" + array.name + "\"";
-  if (choice.component < 0) return "the norm of " + name;
-  return array.components > 1 ? "component " + std::to_string(choice.component) + " of " + name : name;
+void add_points(MeshField& mesh, const std::vector<double>& places) {
+  for (std::size_t k = 0; k + 2 < places.size(); k += 3)
+    mesh.point.push_back({places[k], places[k + 1], places[k + 2]});
+}
+
+void set_cell_values(MeshField& mesh, const std::vector<double>& values) {
+  mesh.value = points_of_cells(mesh, values);
+  mesh.notes.push_back("values of cells were averaged to their points");
 }
 
 namespace {

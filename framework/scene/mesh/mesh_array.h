@@ -26,11 +26,15 @@ struct MeshChoice {
 };
 
 /// By the keys `array` and `component` (mesh_keys.h). Without a name: the active one, else the only one of the points,
-/// else the only one. Throws InputError with the names that there are; `name` is the file.
-MeshChoice choose_mesh_array(const std::vector<MeshArray>& arrays, const ParameterSet& p, const std::string& name);
+/// else the only one. A choice that was not the only one is said in `notes`. Throws InputError with the names that
+/// there are; `name` is the file.
+MeshChoice choose_mesh_array(const std::vector<MeshArray>& arrays, const ParameterSet& p, const std::string& name,
+                             std::vector<std::string>& notes);
 
-/// "component 2 of \"velocity\"", for notes.
-std::string text_of(const MeshArray& array, const MeshChoice& choice);
+/// Appends points: x, y, z of each.
+void add_points(MeshField& mesh, const std::vector<double>& places);
+/// Values of cells, averaged to their points and noted.
+void set_cell_values(MeshField& mesh, const std::vector<double>& values);
 
 /// Numbers of a file in this machine's byte order. `count` of them.
 std::vector<double> to_doubles(const SourceVoxels& source, std::uint64_t count);

@@ -11,9 +11,4 @@ else()
   set(DVRLAB_SKIP "GDCM is missing (Debian package libgdcm-dev)")
 endif()
 
-# The shipped series stands beside the plugin tree as it does in the source tree, so that the example works in both.
-file(GLOB shipped CONFIGURE_DEPENDS ${dir}/../../../data/dicom_torus/*.dcm)
-foreach(slice ${shipped})
-  get_filename_component(slice_name ${slice} NAME)
-  configure_file(${slice} ${ARG_OUTPUT}/../data/dicom_torus/${slice_name} COPYONLY)
-endforeach()
+dvrlab_ship(dicom_torus/*.dcm)

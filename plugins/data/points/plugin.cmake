@@ -6,9 +6,4 @@ else()
   set(DVRLAB_SKIP "Qhull is missing (Debian package libqhull-dev)")
 endif()
 
-# The shipped samples stand beside the plugin tree as they do in the source tree, so that the example works in both.
-file(GLOB shipped CONFIGURE_DEPENDS ${dir}/../../../data/*.csv)
-foreach(samples ${shipped})
-  get_filename_component(samples_name ${samples} NAME)
-  configure_file(${samples} ${ARG_OUTPUT}/../data/${samples_name} COPYONLY)
-endforeach()
+dvrlab_ship(*.csv)

@@ -13,13 +13,6 @@
 namespace dvrlab::points {
 namespace {
 
-constexpr Parameter gradient_key = [] {
-  Parameter key = mesh_normals_key;
-  key.live_in =
-      R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})";
-  return key;
-}();
-
 constexpr Parameter parameters[] = {
     {"file", ParameterType::text, "", nullptr, "",
      "Text of one sample per line, x y z ... value, separated by blanks, commas or semicolons; relative to the "
@@ -31,7 +24,7 @@ constexpr Parameter parameters[] = {
     {"max_edge", ParameterType::number, "world", "0", "[0,inf)",
      "Tetrahedra with a longer edge are left out, so that hollows of the samples stay hollow; 0: none are.",
      Affects::pixels, "{}", "0.6"},
-    gradient_key};
+    mesh_normals_key};
 
 class Points : public DataPlugin {
  public:

@@ -1,7 +1,5 @@
 // The VTK ImageData reader: .vti, one array of its point data.
 #include <algorithm>
-#include <filesystem>
-#include <string_view>
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
@@ -63,14 +61,7 @@ SourceVoxels volume_of(const Opened& o) {
 class Vti : public DataPlugin {
  public:
   bool recognises(const std::string& path, std::span<const std::byte> start) const override {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return false;
-    std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
-    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
-    const auto root = text.find("<VTKFile");
-    return end == ".vti" ||
-           (root != std::string_view::npos && text.find("\"ImageData\"", root) != std::string_view::npos);
+    return vtk_xml::is_file_of("ImageData", ".vti", path, start);
   }
 
   std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {

@@ -1,6 +1,5 @@
 // The reader of legacy VTK files with an unstructured grid: .vtk, one array of its points or cells.
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
 
 #include "framework/interfaces/error.h"
@@ -23,21 +22,10 @@ constexpr Parameter file_key{"file",
                              R"({"data":{"array":"velocity","component":"norm"}})",
                              R"("../../../data/CylinderLinear.vtk")"};
 
-/// A shared key that is live in a patch of this reader's example.
-constexpr Parameter live(Parameter key, const char* patch, const char* value) {
-  key.live_in = patch;
-  key.live_value = value;
-  return key;
-}
-
 constexpr Parameter parameters[] = {
-    file_key, live(mesh_array_key, "{}", R"("velocity_norm")"),
-    live(mesh_component_key, R"({"data":{"array":"velocity","component":"0"}})", R"("norm")"),
-    live(
-        mesh_normals_key,
-        R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
-        R"("cell")"),
-    live(mesh_tolerance_key, "{}", "0.2")};
+    file_key, seen_in(mesh_array_key, "{}", R"("velocity_norm")"),
+    seen_in(mesh_component_key, R"({"data":{"array":"velocity","component":"0"}})", R"("norm")"), mesh_normals_key,
+    mesh_tolerance_key};
 
 struct Opened {
   std::string name;
@@ -96,13 +84,9 @@ class Vtk : public DataPlugin {
     mesh->notes.push_back("world frame: the file's own coordinates");
     std::vector<MeshArray> arrays;
     for (const DataArray& a : f.arrays) arrays.push_back({a.name, a.components, a.cells, a.active});
-    const MeshChoice choice = choose_mesh_array(arrays, p, o.name);
+    const MeshChoice choice = choose_mesh_array(arrays, p, o.name, mesh->notes);
     const MeshArray& chosen = arrays[choice.array];
-    if (arrays.size() > 1 || chosen.components > 1)
-      mesh->notes.push_back("array " + text_of(chosen, choice) + " of " + std::to_string(arrays.size()) + " is read");
-    const std::vector<double> places = doubles_of(f, o.file->bytes(), f.places);
-    for (std::size_t k = 0; k + 2 < places.size(); k += 3)
-      mesh->point.push_back({places[k], places[k + 1], places[k + 2]});
+    add_points(*mesh, doubles_of(f, o.file->bytes(), f.places));
     std::vector<std::uint64_t> kept;
     add_cells(o, *mesh, kept);
     const std::vector<double> values =
@@ -110,8 +94,7 @@ class Vtk : public DataPlugin {
     if (chosen.cells) {
       std::vector<double> of_cells;
       for (const std::uint64_t c : kept) of_cells.push_back(values[c]);
-      mesh->value = points_of_cells(*mesh, of_cells);
-      mesh->notes.push_back("values of cells were averaged to their points");
+      set_cell_values(*mesh, of_cells);
     } else {
       mesh->value = values;
     }

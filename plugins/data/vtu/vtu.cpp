@@ -1,7 +1,5 @@
 // The VTK UnstructuredGrid reader: .vtu, one array of its points or cells.
 #include <algorithm>
-#include <filesystem>
-#include <string_view>
 
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/mesh_keys.h"
@@ -26,21 +24,10 @@ constexpr Parameter file_key{"file",
                              R"({"data":{"array":"","component":"norm"}})",
                              R"("../../../data/notch_disp.vtu")"};
 
-/// A shared key that is live in a patch of this reader's example.
-constexpr Parameter live(Parameter key, const char* patch, const char* value) {
-  key.live_in = patch;
-  key.live_value = value;
-  return key;
-}
-
 constexpr Parameter parameters[] = {
-    file_key, live(mesh_array_key, "{}", R"("Pres")"),
-    live(mesh_component_key, R"({"data":{"array":"V","component":"0"}})", R"("norm")"),
-    live(
-        mesh_normals_key,
-        R"({"optical_model":{"shaded":true},"estimator":{"shading":"linear"},"illumination":[{"type":"blinn_phong"}]})",
-        R"("cell")"),
-    live(mesh_tolerance_key, "{}", "0.2")};
+    file_key, seen_in(mesh_array_key, "{}", R"("Pres")"),
+    seen_in(mesh_component_key, R"({"data":{"array":"V","component":"0"}})", R"("norm")"), mesh_normals_key,
+    mesh_tolerance_key};
 
 struct Opened {
   std::string name;
@@ -115,14 +102,7 @@ const DataArray& array_of(const Piece& p, const MeshArray& chosen, const std::st
 class Vtu : public DataPlugin {
  public:
   bool recognises(const std::string& path, std::span<const std::byte> start) const override {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return false;
-    std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
-    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
-    const auto root = text.find("<VTKFile");
-    return end == ".vtu" ||
-           (root != std::string_view::npos && text.find("\"UnstructuredGrid\"", root) != std::string_view::npos);
+    return vtk_xml::is_file_of("UnstructuredGrid", ".vtu", path, start);
   }
 
   std::shared_ptr<const Field> load(const ParameterSet& p, const LoadContext& context) const override {
@@ -133,17 +113,12 @@ class Vtu : public DataPlugin {
     mesh->gradient = mesh_gradient(p);
     mesh->tolerance = p.number("tolerance");
     const std::vector<MeshArray> arrays = arrays_of(o.header.pieces.front());
-    const MeshChoice choice = choose_mesh_array(arrays, p, o.name);
+    const MeshChoice choice = choose_mesh_array(arrays, p, o.name, mesh->notes);
     const MeshArray& chosen = arrays[choice.array];
     mesh->notes.push_back("world frame: the file's own coordinates");
-    if (arrays.size() > 1 || chosen.components > 1)
-      mesh->notes.push_back("array " + text_of(chosen, choice) + " of " + std::to_string(arrays.size()) + " is read");
     std::vector<double> of_cells;
     for (const Piece& piece : o.header.pieces) add_piece(o, piece, chosen, choice, *mesh, of_cells);
-    if (chosen.cells) {
-      mesh->value = points_of_cells(*mesh, of_cells);
-      mesh->notes.push_back("values of cells were averaged to their points");
-    }
+    if (chosen.cells) set_cell_values(*mesh, of_cells);
     if (o.header.pieces.size() > 1)
       mesh->notes.push_back(std::to_string(o.header.pieces.size()) + " pieces were put together");
     finish_mesh(*mesh, context.nan_policy, context.nan_value);
@@ -171,9 +146,7 @@ class Vtu : public DataPlugin {
                         MeshField& mesh, std::vector<double>& of_cells) {
     const PieceReader read(o, piece);
     const std::uint64_t offset = mesh.point.size();
-    const std::vector<double> places = read.doubles(read.places(), piece.points);
-    for (std::size_t k = 0; k + 2 < places.size(); k += 3)
-      mesh.point.push_back({places[k], places[k + 1], places[k + 2]});
+    add_points(mesh, read.doubles(read.places(), piece.points));
     const std::vector<std::int64_t> types = read.integers(read.topology("types"), piece.cells),
                                     ends = read.integers(read.topology("offsets"), piece.cells);
     const std::int64_t nodes = ends.empty() ? 0 : ends.back();
