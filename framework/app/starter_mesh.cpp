@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "framework/app/starter_view.h"
 #include "framework/interfaces/error.h"
 #include "framework/report/number_text.h"
+#include "framework/scene/mesh/tetrahedra.h"
 #include "framework/scene/vector.h"
 
 namespace dvrlab {
@@ -36,8 +38,21 @@ Spread spread_of(const MeshField& mesh) {
   return s;
 }
 
-/// Optical depth of the diagonal of the box, for a value of each part: most of the matter is thin.
-constexpr double depth[] = {8, 2, 0.4, 2, 8};
+/// The mean way of a ray through a convex body, which most meshes are nearly: 4 volume / surface (Cauchy).
+double mean_path(const MeshField& mesh) {
+  const Tetrahedra& t = tetrahedra_in(mesh);
+  const auto point = [&](std::int32_t k) { return mesh.point[static_cast<std::size_t>(k)]; };
+  double volume = 0, surface = 0;
+  for (const auto& v : t.vertex) volume += std::abs(volume6(point(v[0]), point(v[1]), point(v[2]), point(v[3]))) / 6;
+  for (const Tetrahedra::BoundaryFace& f : t.boundary) {
+    const Vector3 a = point(f.vertex[0]);
+    surface += 0.5 * length(cross(minus(point(f.vertex[1]), a), minus(point(f.vertex[2]), a)));
+  }
+  return surface > 0 && volume > 0 ? 4 * volume / surface : mesh.voxel;
+}
+
+/// Optical depth of the mean path, for a value of each part: most of the matter is thin.
+constexpr double depth[] = {4, 1, 0.25, 1, 4};
 const char* const color[] = {"0.15, 0.35, 0.90", "0.40, 0.70, 0.95", "0.90, 0.90, 0.88", "0.98, 0.65, 0.35",
                              "0.90, 0.20, 0.10"};
 
@@ -89,14 +104,14 @@ std::string mesh_starter_words(const MeshField& mesh) {
 std::string mesh_starter_config(const LoadedData& data, const MeshField& mesh, const std::string& folder) {
   const Spread s = spread_of(mesh);
   const StarterView view = starter_view(mesh.point, mesh);
-  const double diagonal = length(mesh.to_world.vector(minus(mesh.hi, mesh.lo)));
+  const double path = mean_path(mesh);
   return filled(form, {{"name", file_name_of(data)},
                        {"data", data_section_in(folder, data)},
                        {"lowest", number_text(s.value.front())},
                        {"highest", number_text(s.value.back())},
                        {"middle", number_text(s.middle)},
                        {"unit", mesh.length_unit.empty() ? "world unit" : mesh.length_unit},
-                       {"density", nodes(s, [&](std::size_t k) { return number_text(depth[k] / diagonal, 3); })},
+                       {"density", nodes(s, [&](std::size_t k) { return number_text(depth[k] / path, 3); })},
                        {"color", nodes(s, [](std::size_t k) { return std::string(color[k]); })},
                        {"axes", axes_text(mesh)},
                        {"position", vector_text(view.position)},
