@@ -78,9 +78,9 @@ void write_exodus(const std::string& file, const ExodusContents& c, NetcdfKind k
   const int time = out.dimension("time_step", NC_UNLIMITED), points = out.dimension("num_nodes", c.points.size());
   const int letters = out.dimension("len_name", width);
   const int blocks = out.dimension("num_el_blk", c.blocks.size());
-  std::size_t count = 0;
-  for (const ExodusContents::Block& b : c.blocks) count += b.node.size() / static_cast<std::size_t>(b.nodes);
-  out.dimension("num_elem", count);
+  std::size_t elements = 0;
+  for (const ExodusContents::Block& b : c.blocks) elements += b.node.size() / static_cast<std::size_t>(b.nodes);
+  out.dimension("num_elem", elements);
   out.version(single ? 4 : 8);
   const int status = out.variable("eb_status", NC_INT, {blocks}), numbers = out.variable("eb_prop1", NC_INT, {blocks});
   out.attribute(numbers, "name", "ID");
