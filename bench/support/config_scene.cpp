@@ -27,4 +27,8 @@ Scene config_scene(const std::string& file, const std::string& panel, const std:
   }
 }
 
+nlohmann::json config_sections(const std::string& file, const std::vector<std::string>& set) {
+  return case_of(file, "", set).config;
+}
+
 }  // namespace dvrlab::bench

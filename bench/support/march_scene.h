@@ -43,6 +43,8 @@ std::string short_name(const std::string& voxel_type);
 double least(const std::vector<double>& values);
 double median(std::vector<double> values);
 
+double wall_seconds();  // of a steady clock
+
 /// User and system time of the process and of all its threads.
 double process_seconds();
 

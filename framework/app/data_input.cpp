@@ -60,7 +60,7 @@ LoadedData load_data(const ConfigDocument& document, const Registry& registry) {
   try {
     MemoryBill memory(0.75 * static_cast<double>(system_memory().available), "75 % of what is available is");
     memory.state("data", static_cast<double>(reader.bytes_needed(p, context)));
-    return {section.type, reader.load(p, context)};
+    return {section.type, reader.load(p, context), *document.tree.find("data")};
   } catch (const InputError& e) {
     throw InputError(document.tree.located(e.what()));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "framework/config/document.h"
@@ -22,6 +23,7 @@ ConfigDocument data_document(const std::string& path, const std::vector<std::str
 struct LoadedData {
   std::string type;  // of the data section
   std::shared_ptr<const Field> field;
+  nlohmann::ordered_json section;  // as it was given
 };
 
 /// Loads what the document's data section says; the rest of the document is not read. Throws InputError, or

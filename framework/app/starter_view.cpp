@@ -1,12 +1,8 @@
 #include "framework/app/starter_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <mutex>
-#include <vector>
 
-#include "framework/scene/parallel.h"
 #include "framework/scene/vector.h"
 
 namespace dvrlab {
@@ -15,31 +11,6 @@ namespace {
 constexpr double margin = 0.92;  // part of the image's half height that the shape takes
 
 using Points = std::vector<Vector3>;
-
-/// The first and the last visible grid point of every row: their convex hull holds all others. Index coordinates.
-Points visible_points(const GridField& grid, double cut) {
-  const int nx = grid.dims[0], ny = grid.dims[1];
-  const auto rows = static_cast<std::uint64_t>(ny) * static_cast<std::uint64_t>(grid.dims[2]);
-  const auto visible = [&](int i, int j, int k) { return grid.slope * grid.at(i, j, k) + grid.intercept >= cut; };
-  Points points;
-  std::mutex guard;
-  parallel_ranges(rows, 64, [&](std::uint64_t begin, std::uint64_t end) {
-    Points mine;
-    for (std::uint64_t row = begin; row < end; ++row) {
-      const int j = static_cast<int>(row % static_cast<std::uint64_t>(ny));
-      const int k = static_cast<int>(row / static_cast<std::uint64_t>(ny));
-      int first = 0, last = nx - 1;
-      while (first < nx && !visible(first, j, k)) ++first;
-      if (first == nx) continue;
-      while (!visible(last, j, k)) --last;
-      for (int i : {first, last}) mine.push_back({double(i), double(j), double(k)});
-    }
-    const std::lock_guard lock(guard);
-    points.insert(points.end(), mine.begin(), mine.end());
-  });
-  if (points.empty()) points = {grid.lo, grid.hi};
-  return points;
-}
 
 struct Box {
   Vector3 lo{1e300, 1e300, 1e300}, hi{-1e300, -1e300, -1e300};
@@ -83,20 +54,14 @@ struct Fit {
 
 }  // namespace
 
-StarterView starter_view(const GridField& grid, double cut) {
-  Points points = visible_points(grid, cut);
-  const Box index_box(points);
-  const Vector3 size = minus(index_box.hi, index_box.lo);
+StarterView starter_view(std::vector<Vector3> points, const Field& field) {
   StarterView view;
-  view.diagonal = length(grid.to_world.vector(size));
-  view.box_voxels = (size[0] + 1) * (size[1] + 1) * (size[2] + 1);
-
-  const Vector3 middle = grid.to_world.point(times(plus(grid.lo, grid.hi), 0.5));
-  const double unit = 0.5 * length(grid.to_world.vector(minus(grid.hi, grid.lo)));
-  for (Vector3& p : points) p = times(minus(grid.to_world.point(p), middle), 1.0 / unit);
+  const Vector3 middle = field.to_world.point(times(plus(field.lo, field.hi), 0.5));
+  const double unit = 0.5 * length(field.to_world.vector(minus(field.hi, field.lo)));
+  for (Vector3& p : points) p = times(minus(p, middle), 1.0 / unit);
   const Box box(points);
   const double degree = 3.14159265358979323846 / 180.0;
-  const Vector3 towards = grid.anatomical ? Vector3{-0.55, 0.8, 0.3} : Vector3{-0.5, -0.8, 0.45};
+  const Vector3 towards = field.anatomical ? Vector3{-0.55, 0.8, 0.3} : Vector3{-0.5, -0.8, 0.45};
   Fit fit{};
   fit.towards = times(towards, 1.0 / length(towards));
   fit.right = cross({0, 0, 1}, fit.towards);

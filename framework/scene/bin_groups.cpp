@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "framework/interfaces/wide.h"
 #include "framework/scene/bin_pieces.h"
 
 namespace dvrlab {
@@ -59,8 +60,7 @@ void add_barycentre(const Medium& medium, BinMedium& b) {
 typedef double four __attribute__((vector_size(32)));
 
 /// All bins inside the range. By the widest instructions of the machine; the numbers are the same.
-__attribute__((target_clones("avx2", "default"))) void fill(const Medium& medium, const double* polynomials, int groups,
-                                                            BinMedium& r) {
+DVRLAB_WIDE void fill(const Medium& medium, const double* polynomials, int groups, BinMedium& r) {
   const int bins = r.count - 2;
   const double inverse_width = bins / (r.hi - r.lo);
   for_each_piece(

@@ -1,5 +1,6 @@
 #include "framework/scene/mean_table.h"
 
+#include "framework/interfaces/wide.h"
 #include "framework/scene/buffers.h"
 
 namespace dvrlab {
@@ -21,7 +22,7 @@ inline __attribute__((always_inline)) void store(double* to, const four& x, four
 /// Per bin and group: the sum of all bins before it, what rounding took of that, the mean in it. The same numbers on
 /// every machine, by its widest instructions.
 template <class T>
-__attribute__((target_clones("avx2", "default"))) void fill(const BinMedium& bins, T* to) {
+DVRLAB_WIDE void fill(const BinMedium& bins, T* to) {
   constexpr int most_groups = 8;
   four sum[most_groups] = {};
   const double* from = bins.mean.get();

@@ -35,8 +35,11 @@ void add_nodes(const Medium& m, const MediumLayout& layout, KernelUnit& unit) {
   std::size_t padded = 1;
   while (padded < m.interval.size()) padded *= 2;
   std::vector<double> node, poly;
-  for (const MediumInterval& i : m.interval) {
-    node.insert(node.end(), {i.v0, 1.0 / (i.v1 - i.v0), 0.0, 0.0});
+  constexpr double beyond = std::numeric_limits<float>::max();
+  for (std::size_t k = 0; k < m.interval.size(); ++k) {
+    const MediumInterval& i = m.interval[k];
+    node.insert(node.end(),
+                {i.v0, 1.0 / (i.v1 - i.v0), k + 1 < m.interval.size() ? m.interval[k + 1].v0 : beyond, 0.0});
     std::array<std::vector<MediumGroup>, 3> power;
     for (std::size_t p = 0; p < 3; ++p) {
       Columns x;
@@ -50,8 +53,7 @@ void add_nodes(const Medium& m, const MediumLayout& layout, KernelUnit& unit) {
   // (the outer intervals are constant, so their coordinate does not matter).
   node[0] = std::numeric_limits<float>::lowest();
   node[1] = 0.0;
-  for (std::size_t k = m.interval.size(); k < padded; ++k)
-    node.insert(node.end(), {std::numeric_limits<float>::max(), 0.0, 0.0, 0.0});
+  for (std::size_t k = m.interval.size(); k < padded; ++k) node.insert(node.end(), {beyond, 0.0, beyond, 0.0});
   unit.uniforms.push_back(Uniform::constant_integer("medium_node_step", int(padded / 2)));
   unit.buffers.push_back(vec4_buffer("medium_node", std::move(node)));
   unit.buffers.push_back(vec4_buffer("medium_node_poly", std::move(poly)));

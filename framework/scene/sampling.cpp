@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "framework/interfaces/error.h"
+#include "framework/interfaces/mesh.h"
 #include "framework/interfaces/transfer_function.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/cells.h"
@@ -28,7 +29,19 @@ double step_of(const ResolvedCase& c, const Field& field, std::vector<std::strin
   return step;
 }
 
-void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
+namespace {
+
+/// False where every segment is shorter than the step and stays whole, which spares the marching of parts. A cell with
+/// curved faces may be longer than its corners are apart.
+bool cuts_segments(const ResolvedCase& c, const Field& field, double step) {
+  constexpr double bulge = 4;
+  const auto* mesh = dynamic_cast<const MeshField*>(&field);
+  return samples_faces(c) && (mesh == nullptr || step < bulge * mesh->longest);
+}
+
+}  // namespace
+
+void add_sampling(const ResolvedCase& c, const Field& field, double step, KernelUnit& unit) {
   const ParameterSet& p = c.sampling.parameters;
   const double jitter = c.sampling.type == "uniform" ? p.number("jitter") : 0.0;
   const auto background = c.image.vector3("background");
@@ -37,7 +50,7 @@ void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit) {
   unit.uniforms.insert(
       unit.uniforms.end(),
       {Uniform::real("frame_step", step), Uniform::real("frame_inv_step", 1.0 / step),
-       Uniform::constant_integer("frame_parts", samples_faces(c) ? 1 : 0),
+       Uniform::constant_integer("frame_parts", cuts_segments(c, field, step) ? 1 : 0),
        Uniform::real("frame_parts_per_length", 1.0 / step),
        Uniform::constant_integer("frame_jitter_on", jitter > 0 ? 1 : 0), Uniform::real("frame_jitter", jitter),
        // The same 32 bits: the hash takes the seed as they are.

@@ -21,7 +21,7 @@ bool samples_faces(const ResolvedCase& c);
 double step_of(const ResolvedCase& c, const Field& field, std::vector<std::string>& notes);
 
 /// Adds frame_step ... frame_background.
-void add_sampling(const ResolvedCase& c, double step, KernelUnit& unit);
+void add_sampling(const ResolvedCase& c, const Field& field, double step, KernelUnit& unit);
 
 /// Throws InputError when a ray could have more segments than are marched. `frame` has the camera's uniforms.
 void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame);

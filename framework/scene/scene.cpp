@@ -141,7 +141,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   if (c.sampling.type == "uniform" && dynamic_cast<const MeshField*>(field.get()) == nullptr)
     refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
-  add_sampling(c, scene.step, job.frame);
+  add_sampling(c, *field, scene.step, job.frame);
   const OccupiedBins occupied(scene.medium, options, declared.cells);
   add_skipping(skips(c), *field, occupied, job.frame);
   // What tables hold: of opaque values only what lies before them.

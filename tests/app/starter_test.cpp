@@ -11,10 +11,11 @@ namespace {
 class Starter : public Program {
  protected:
   /// The picture lies inside the image with a margin, fills it in one direction, and is neither black nor opaque.
-  void expect_good_picture(const std::string& data) const {
+  void expect_good_picture(const std::string& data, const std::vector<std::string>& words = {"background"}) const {
     const Outcome o = run("dvrlab render " + data + " --set image.size=[96,96] -o picture.exr");
     ASSERT_EQ(o.code, 0) << o.err;
-    expect_words(o.err, {"is data, so a starter config is made from it", "background", "dense", "--starter my.json"});
+    expect_words(o.err, {"is data, so a starter config is made from it", "dense", "--starter my.json"});
+    expect_words(o.err, words);
     const FrameImage image = read_exr(path("picture.exr"));
     int lo[2] = {96, 96}, hi[2] = {-1, -1}, seen = 0, translucent = 0;
     for (int y = 0; y < 96; ++y) {
@@ -39,6 +40,19 @@ class Starter : public Program {
 TEST_F(Starter, ShippedDataMakeGoodPictures) {
   for (const char* file : {"engine.nrrd", "fuel.nrrd", "hydrogen.nrrd", "hydrogenatom.nrrd"})
     expect_good_picture(std::string("data/") + file);
+}
+
+TEST_F(Starter, MeshesMakeGoodPictures) {
+  for (const char* file : {"bluntfin_tets.vtu", "CylinderQuadratic.vtk --set data.array=pressure",
+                           "notch_disp.vtu --set data.component=norm"})
+    expect_good_picture(std::string("data/") + file, {"thin", "blue"});
+  // Of several arrays one has to be chosen, and the written config keeps the choice.
+  expect_one_error(run("dvrlab render data/disk_out_ref.vtu -o a.png"), 2, {"data.array", "Temp"});
+  expect_good_picture("data/disk_out_ref.vtu --set data.array=Temp", {"thin", "red"});
+  ASSERT_EQ(run("dvrlab info data/disk_out_ref.vtu --set data.array=Temp --starter disk.json").code, 0);
+  expect_words(read("disk.json"), {"\"array\": \"Temp\""});
+  EXPECT_EQ(run("dvrlab render disk.json --set image.size=[96,96] -o b.exr").code, 0);
+  EXPECT_EQ(run("dvrlab compare picture.exr b.exr").code, 0);
 }
 
 TEST_F(Starter, SharedDataMakeGoodPictures) {

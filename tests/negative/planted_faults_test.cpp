@@ -28,6 +28,20 @@ json config() {
       {"image", {{"size", {48, 40}}}}};
 }
 
+/// The same medium in a mesh of tetrahedra.
+json mesh_config() {
+  return patched(config(), {{"data",
+                             {{"type", "procedural"},
+                              {"field", "marschner_lobb"},
+                              {"evaluate", "mesh"},
+                              {"cells", "tetrahedra6"},
+                              {"size", {6, 6, 6}},
+                              {"voxel_type", nullptr}}},
+                            {"optical_model", {{"tf", "nodes"}}},
+                            {"estimator", {{"type", "exact"}}},
+                            {"sampling", {{"type", "faces"}, {"step", 100}}}});
+}
+
 /// A copy of a kernel folder in which `from` in `file` became `to`.
 class FaultyFolder {
  public:
@@ -54,6 +68,7 @@ class FaultyFolder {
 
 struct Fault {
   std::string name, file, from, to;
+  json (*scene)() = config;
 };
 
 void PrintTo(const Fault& f, std::ostream* out) { *out << f.name; }
@@ -64,11 +79,11 @@ TEST_P(PlantedFault, IsCaught) {
   const Fault& fault = GetParam();
   const Target cpu{"cpu", {{"type", "cpu"}}}, vulkan{"vulkan", {{"type", "vulkan"}}};
   try {
-    const FrameImage right = render(config(), cpu).image;
-    const FrameImage same = render(config(), vulkan).image;
+    const FrameImage right = render(fault.scene(), cpu).image;
+    const FrameImage same = render(fault.scene(), vulkan).image;
     ASSERT_EQ(differing_values(right, same), 0u) << "without a fault the backends agree";
     std::unique_ptr<FaultyFolder> folder;
-    const FrameImage wrong = render(config(), vulkan, [&](FrameJob& job) {
+    const FrameImage wrong = render(fault.scene(), vulkan, [&](FrameJob& job) {
                                folder =
                                    std::make_unique<FaultyFolder>(job.kernel_folder, fault.file, fault.from, fault.to);
                                job.kernel_folder = folder->path();
@@ -84,16 +99,20 @@ TEST_P(PlantedFault, IsCaught) {
 
 INSTANTIATE_TEST_SUITE_P(
     Faults, PlantedFault,
-    testing::Values(Fault{"wrong_step", "steps.kernel", "real s = rmax(to_real(i) * R(frame_step) - offset, R(0.0));",
-                          "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
-                    Fault{"last_segment_with_full_length", "steps.kernel", "  return length;",
-                          "  return R(frame_step);"},
-                    Fault{"filter_weights_of_8_bits", "volume.kernel",
-                          "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
-                          "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z "
-                          "- to_real(c.z));"},
-                    Fault{"half_voxel_shift", "volume.kernel", "real x = rmin(rmax(p.x, R(0.0)), to_real(I(nx - 1)));",
-                          "real x = rmin(rmax(p.x + R(0.5), R(0.0)), to_real(I(nx - 1)));"}),
+    testing::Values(
+        Fault{"wrong_step", "steps.kernel", "real s = rmax(to_real(i) * R(frame_step) - offset, R(0.0));",
+              "real s = rmax(to_real(i) * R(frame_step) * R(1.0001) - offset, R(0.0));"},
+        Fault{"last_segment_with_full_length", "steps.kernel", "  return length;", "  return R(frame_step);"},
+        Fault{"filter_weights_of_8_bits", "volume.kernel",
+              "c.f = v3(x - to_real(c.x), y - to_real(c.y), z - to_real(c.z));",
+              "c.f = v3(floor((x - to_real(c.x)) * R(256.0) + R(0.5)) * R(0.00390625), y - to_real(c.y), z "
+              "- to_real(c.z));"},
+        Fault{"half_voxel_shift", "volume.kernel", "real x = rmin(rmax(p.x, R(0.0)), to_real(I(nx - 1)));",
+              "real x = rmin(rmax(p.x + R(0.5), R(0.0)), to_real(I(nx - 1)));"},
+        Fault{"face_walked_twice", "tetrahedra.kernel", "next.cell = select(m.behind >= I(0), m.behind, w.cell);",
+              "next.cell = w.cell;", mesh_config},
+        Fault{"segments_unsorted", "composite.kernel", "color = color + c * trans;", "color = color * rgb_of(t) + c;",
+              mesh_config}),
     [](const auto& instance) { return instance.param.name; });
 
 // A contracted multiply-add differs in the last bit only; the comparison must see it.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <random>
+#include <tuple>
 
 #include "tests/truth/ray_cases.h"
 
@@ -166,6 +167,31 @@ TEST_P(Mesh, CurvedFieldConverges) {
     }
     EXPECT_LT(4 * error("tetrahedra10", 4), error("tetrahedra6", 4));
     EXPECT_LT(4 * error("hexahedra20", 4), error("hexahedra", 4));
+  })
+}
+
+// Cells are of many lengths, and a table of ratios is made for eight of them: what plugins/estimator/preintegrated says
+// of the error.
+TEST_P(Mesh, PreintegratedHasTablesForEightLengths) {
+  if (GetParam().backend["type"] != "cpu") GTEST_SKIP() << "not supported: slow, and agreement compares the bits";
+  const auto extinction = [](double peak) {
+    json model = layers;
+    model["extinction"] = {{0, 0.1 * peak}, {0.4, 0.05 * peak}, {0.5, peak}, {0.6, 0.125 * peak}, {1, 0.5 * peak}};
+    return model;
+  };
+  SKIP_WHEN_NOT_SUPPORTED({
+    for (const auto& [peak, n, bound] :
+         {std::tuple{4.0, 64, 3e-4}, {4.0, 256, 2e-5}, {40.0, 256, 2.5e-3}, {40.0, 1024, 2e-3}}) {
+      json config = view(mesh_data("tetrahedra6", {9, 7, 6}, 0.3), extinction(peak), 40);
+      const FrameImage exact = image(config);
+      config["estimator"] = {{"type", "preintegrated"}, {"table_size", n}};
+      const double worst = largest_difference(image(config), exact);
+      config["estimator"] = {{"type", "approximative"}};
+      const double without = largest_difference(image(config), exact);
+      std::printf("extinction %g, %d values: %.1e; approximative %.1e\n", peak, n, worst, without);
+      EXPECT_LE(worst, bound) << peak << " " << n;
+      EXPECT_LT(10 * worst, without) << "the ratios are of use";
+    }
   })
 }
 

@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "framework/interfaces/wide.h"
+
 namespace dvrlab::power_series {
 namespace {
 
 #define DVRLAB_INLINE inline __attribute__((always_inline))
-/// Widest instructions of the machine that the program runs on; the sums are the same.
-#define DVRLAB_WIDE __attribute__((target_clones("avx2", "default")))
 
 typedef double four __attribute__((vector_size(32)));
 typedef float four_floats __attribute__((vector_size(16)));
