@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "framework/interfaces/error.h"
+#include "framework/scene/child.h"
 #include "framework/scene/mapped_file.h"
-#include "plugins/data/dicom/child.h"
 #include "plugins/data/dicom/element_lengths.h"
 #include "plugins/data/dicom/elements.h"
 

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "framework/interfaces/error.h"
+#include "framework/scene/child.h"
 #include "framework/scene/voxels.h"
-#include "plugins/data/dicom/child.h"
 
 namespace dvrlab::dicom {
 namespace {
@@ -126,7 +126,7 @@ void set_pixels(GridField& grid, const Stack& stack, const std::vector<ImageHead
   const auto shared_outcome = shared_memory(sizeof(Outcome), grid.source);
   Outcome& outcome = *new (shared_outcome.get()) Outcome{};
   const bool wide = stack.format.allocated == 16, is_signed = stack.format.is_signed;
-  in_child(memory_for(images), [&] {
+  in_child("GDCM", memory_for(images), [&] {
     const auto place = [&]<class T>(T) { outcome = place_all<T>(volume.get(), scaled, stack, images); };
     if (wide)
       is_signed ? place(std::int16_t{}) : place(std::uint16_t{});

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "plugins/data/dicom/child.h"
+#include "framework/scene/child.h"
 #include "plugins/data/dicom/series.h"
 
 namespace dvrlab::dicom {
@@ -16,7 +16,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeriesHeaders, image, notes)
 
 SeriesHeaders read_series_headers(const std::string& path, const std::string& wanted, const std::string& series_key) {
   constexpr std::uint64_t memory = 256 << 20;  // headers are small; those of multi-frame files some megabytes
-  const Bytes bytes = in_child(memory, [&] {
+  const Bytes bytes = in_child("GDCM", memory, [&] {
     const SeriesFiles files = find_series(path, wanted, series_key);
     SeriesHeaders headers{{}, files.notes};
     for (const std::string& file : files.file) headers.image.push_back(read_header(file).value());

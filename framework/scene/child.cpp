@@ -1,4 +1,4 @@
-#include "plugins/data/dicom/child.h"
+#include "framework/scene/child.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -15,7 +15,7 @@
 
 #include "framework/interfaces/error.h"
 
-namespace dvrlab::dicom {
+namespace dvrlab {
 namespace {
 
 // What a child says beside its result.
@@ -93,7 +93,7 @@ void run(const std::function<Bytes()>& work, int pipe, Report& report) {
 
 std::shared_ptr<void> shared_memory(std::uint64_t bytes, const std::string& where) {
   void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw NotSupported(where + ": no memory for " + std::to_string(bytes) + " bytes of voxels");
+  if (memory == MAP_FAILED) throw NotSupported(where + ": no memory for " + std::to_string(bytes) + " bytes");
   return {memory, [bytes](void* m) { ::munmap(m, bytes); }};
 }
 
@@ -101,8 +101,8 @@ void reading(const std::string& file) {
   if (report_of_child) keep(report_of_child->file, sizeof report_of_child->file, file);
 }
 
-Bytes in_child(std::uint64_t memory, const std::function<Bytes()>& work) {
-  const auto shared = shared_memory(sizeof(Report), "DICOM reader");
+Bytes in_child(const std::string& library, std::uint64_t memory, const std::function<Bytes()>& work) {
+  const auto shared = shared_memory(sizeof(Report), library);
   Report& report = *new (shared.get()) Report{};
   int ends[2] = {-1, -1};
   const pid_t child = ::pipe2(ends, O_CLOEXEC) == 0 ? ::fork() : -1;
@@ -110,16 +110,16 @@ Bytes in_child(std::uint64_t memory, const std::function<Bytes()>& work) {
   if (ends[1] >= 0) ::close(ends[1]);
   Bytes result = child > 0 ? read_all(ends[0]) : Bytes{};
   if (ends[0] >= 0) ::close(ends[0]);
-  if (child < 0) throw NotSupported("the DICOM reader cannot start a child process for GDCM");
+  if (child < 0) throw NotSupported("a child process for " + library + " cannot be started");
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (report.outcome == Report::Outcome::done) return result;
   if (report.outcome == Report::Outcome::input_error) throw InputError(report.message);
   if (report.outcome == Report::Outcome::not_supported) throw NotSupported(report.message);
-  throw InputError(std::string(report.file) + ": GDCM gives up on it" +
+  throw InputError(std::string(report.file) + ": " + library + " gives up on it" +
                    (WIFSIGNALED(status) ? " (signal " + std::to_string(WTERMSIG(status)) + ")" : "") +
                    "; the file is damaged");
 }
 
-}  // namespace dvrlab::dicom
+}  // namespace dvrlab
