@@ -1,6 +1,8 @@
 #include "framework/render_case.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "framework/image/averaged.h"
 #include "framework/interfaces/error.h"
@@ -26,6 +28,15 @@ double bytes_of(const FrameJob& job) {
     for (const Buffer& b : unit->buffers) bytes += static_cast<double>(b.bytes() + b.bytes64());
   }
   return bytes;
+}
+
+/// The times of the light volume's stages, which only a case's first frame has to fill.
+std::vector<PhaseTime> take_light(std::vector<PhaseTime>& times) {
+  const auto is_light = [](const PhaseTime& t) { return t.phase.starts_with("light "); };
+  std::vector<PhaseTime> light;
+  std::copy_if(times.begin(), times.end(), std::back_inserter(light), is_light);
+  std::erase_if(times, is_light);
+  return light;
 }
 
 nlohmann::json scene_section(const Scene& s, double seconds) {
@@ -101,20 +112,28 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   memory.state("backend '" + c.backend.type + "'", static_cast<double>(backend.bytes_needed(scene.job)));
   record.memory = memory.parts();
   FrameResult frame;
+  std::vector<std::vector<PhaseTime>> repeats;
+  bool light_is_new = true;
   for (long long i = 0; i < c.top.integer("warmup") && !interrupted(); ++i) {
     frame = {};
     backend.render(scene.job, frame);
+    if (const std::vector<PhaseTime> light = take_light(frame.times); light_is_new && !light.empty())
+      repeats.push_back(light);
+    light_is_new = false;
   }
-  std::vector<std::vector<PhaseTime>> repeats;
   for (long long i = 0; i < c.top.integer("repeat") && !(i > 0 && interrupted()); ++i) {
     frame = {};
     const double start = now();
     backend.render(scene.job, frame);
     frame.times.push_back({"frame", now() - start, -1.0});
+    const std::vector<PhaseTime> light = take_light(frame.times);
+    if (light_is_new) frame.times.insert(frame.times.begin(), light.begin(), light.end());
+    light_is_new = false;
     repeats.push_back(std::move(frame.times));
   }
   record.times = phase_statistics(repeats);
   record.counters = frame.counters;
+  record.light_error = frame.light_error;
   record.counters.table_fetches = record.counters.samples * static_cast<std::uint64_t>(scene.job.table_fetches);
   return averaged(std::move(frame.image), scene.rays_per_side);
 }

@@ -1,6 +1,7 @@
 // The cpu backend: kernel modules of one instruction set, chosen at run time, over image tiles on all cores.
 #include "backends/cpu/isa.h"
 #include "backends/cpu/probe.h"
+#include "backends/cpu/stages.h"
 #include "backends/cpu/tiles.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/plugin.h"
@@ -36,13 +37,18 @@ class CpuSession : public BackendSession {
     const std::uint64_t number = sizeof(float) + (job.precision == Precision::fp64 ? sizeof(double) : 0);
     return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * number;
   }
-  void render(const FrameJob& job, FrameResult& result) override {
+
+ protected:
+  void march(const FrameJob& job, FrameResult& result) override {
     if (job.precision == Precision::fast)
       throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
     cpu::render_tiles(job, isa_, march_folder_, modules_, options_, result);
   }
-  std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y) override {
+  std::vector<ProbeSegment> march_ray(const FrameJob& job, int x, int y) override {
     return cpu::probe_ray(job, isa_, march_folder_, modules_, x, y);
+  }
+  void fill(const StageJob& job, LightVolume& volume) override {
+    cpu::fill_volume(job, isa_, options_.threads, modules_, volume);
   }
 
  private:

@@ -66,6 +66,7 @@ struct Definition {
     option(compare, "b", o.b, "B", "the reference: EXR file or case folder")->required();
     option(compare, "--tolerance", o.tolerance, "X", "largest absolute difference that counts as equal; 0: every bit")
         ->check(CLI::Validator(not_negative, ""));
+    option(compare, "--difference", o.difference, "FILE", "PNG of the colour difference of every pixel (CIELUV)");
 
     CLI::App& probe = add("probe", probe_verb);
     config(probe);

@@ -6,6 +6,7 @@
 #include "framework/image/image_io.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/metric.h"
+#include "framework/metric/difference_image.h"
 #include "framework/metric/measure.h"
 #include "framework/report/text_table.h"
 
@@ -43,6 +44,7 @@ int compare_verb(const Options& o) {
                      std::to_string(a.height) + " pixels, " + o.b + " has " + std::to_string(b.width) + "x" +
                      std::to_string(b.height));
   }
+  if (!o.difference.empty()) write_png(o.difference, difference_image(a, b, false), false);
   const VariantCheck bits = compare_bits(a, b);
   const bool equal = o.tolerance > 0 ? bits.max_abs <= o.tolerance : bits.different == 0;
   std::vector<std::vector<std::string>> rows = {{"metric", "value"}};

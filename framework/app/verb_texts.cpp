@@ -60,12 +60,14 @@ const std::vector<VerbText>& verb_texts() {
        images,
        "compare two images (EXR files or case folders)",
        "Compares two float images of one size: how many numbers differ, by how much at most, and every metric that is "
-       "installed. The second image is the reference. Exit code 1 when they differ by more than the tolerance.",
+       "installed. The second image is the reference. Exit code 1 when they differ by more than the tolerance. The picture of "
+       "--difference is grey where the difference is not noticeable (below 1 in CIELUV) and coloured from there on.",
        "the same numbers",
        {{"dvrlab compare out/first_experiment/cases/sampling.step=1,backend=cpu "
          "out/first_experiment/cases/reference=fine --tolerance 0.5",
          "how far is a case from the reference?"},
-        {"dvrlab compare image.exr image.exr", "the same image?"}}},
+        {"dvrlab compare image.exr image.exr", "the same image?"},
+        {"dvrlab compare a.exr b.exr --difference delta_e.png", "where would an eye see it?"}}},
       {"probe",
        images,
        "list every segment of the ray through one pixel",

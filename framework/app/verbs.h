@@ -19,6 +19,7 @@ struct Options {
   std::string a, b;        // compare; new-plugin NAME
   std::string out_folder;  // new-plugin --out
   double tolerance = 0;    // compare
+  std::string difference;  // compare: PNG
   std::vector<int> pixel;  // probe
   int repeat = 0;          // run; 0: as the config says
   std::string starter;     // info --starter

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "framework/interfaces/kernel_unit.h"
+#include "framework/interfaces/light_stage.h"
 #include "framework/interfaces/plugin.h"
 
 namespace dvrlab {
@@ -28,10 +30,22 @@ struct FrameJob {
   KernelUnit sampler;
   KernelUnit estimator;
   std::string kernel_folder;  // framework/kernel
+  std::shared_ptr<const LightWork> light;  // nothing: no pass fills a light volume
   /// Fetches of four numbers from transfer function and estimator tables per segment, at the most; a segment that the
   /// estimator divides counts as one part.
   int table_fetches = 0;
   /// Bytes of one storage buffer binding on a GPU, when lower than what the device offers; 0: the device's own.
+  std::uint64_t gpu_buffer_limit = 0;
+};
+
+/// One stage of a light volume, with the field that its kernel asks.
+struct StageJob {
+  LightGrid grid;
+  bool rgb = false;
+  Precision precision = Precision::strict;
+  KernelUnit rays, sampler, stage;  // stage: the kernel's place, stage_*, and what it reads
+  bool long_loops = false;          // LightStage::long_loops
+  std::string kernel_folder;
   std::uint64_t gpu_buffer_limit = 0;
 };
 
@@ -66,6 +80,8 @@ struct FrameResult {
   FrameImage image;
   FrameCounters counters;
   std::vector<PhaseTime> times;
+  /// Of the light volume, where its pass knows: root of the mean square of the standard error, and the largest.
+  std::vector<std::pair<std::string, double>> light_error;
 };
 
 /// What runs the frames, for the result file.
@@ -84,19 +100,40 @@ struct ProbeSegment {
   std::array<double, 3> color_behind{}, trans_behind{};  // of the ray, after this segment; without background
 };
 
+/// Light volumes that a session has filled, kept for the next frame. What is the same is not computed again.
+class LightCache;
+
 /// A backend that is ready to render: device open, options fixed. Used by one thread.
 class BackendSession {
  public:
-  virtual ~BackendSession() = default;
+  BackendSession();
+  virtual ~BackendSession();
+  BackendSession(const BackendSession&) = delete;
+  BackendSession& operator=(const BackendSession&) = delete;
   /// What runs frames of this precision.
   virtual DeviceInfo device(Precision precision) const = 0;
   /// Bytes on top of the job's buffers that render() will allocate.
   virtual std::uint64_t bytes_needed(const FrameJob& job) const = 0;
-  /// Uploads and compiles what changed since the last call, renders, blocks until done.
-  virtual void render(const FrameJob& job, FrameResult& result) = 0;
+  /// Fills the job's light volume, if it has one: stages whose input changed since the last call, no other; their times
+  /// stand before the march's ("light <stage>", 0 for those that were kept). Then march().
+  void render(const FrameJob& job, FrameResult& result);
+  /// The light volume alone, as render() fills it.
+  LightVolume illuminate(const FrameJob& job, std::vector<PhaseTime>& times);
   /// Every composited segment of the ray of pixel (x, y). Backends without it throw NotSupported: the cpu has it, and
   /// all backends march the same bits.
-  virtual std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y);
+  std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y);
+
+ protected:
+  /// Uploads and compiles what changed since the last call, renders, blocks until done. The job's light volume is one of
+  /// its buffers.
+  virtual void march(const FrameJob& job, FrameResult& result) = 0;
+  virtual std::vector<ProbeSegment> march_ray(const FrameJob& job, int x, int y);
+  /// Fills `volume`, whose grid and memory are there. Backends without it throw NotSupported.
+  virtual void fill(const StageJob& job, LightVolume& volume);
+
+ private:
+  static FrameJob lit(const FrameJob& job, const LightVolume& volume);
+  std::unique_ptr<LightCache> light_;
 };
 
 /// One device that a backend can run on, for `dvrlab doctor`.

@@ -1,5 +1,4 @@
-// Illumination passes. In this version they fill the parameters of local shading; passes that fill light volumes
-// are lists of stages (docs/adr/0001).
+// Illumination passes: they fill the parameters of local shading, or plan the stages that fill a light volume.
 #pragma once
 
 #include <array>
@@ -7,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "framework/interfaces/field.h"
+#include "framework/interfaces/light_stage.h"
 #include "framework/interfaces/parameter_set.h"
 #include "framework/interfaces/plugin.h"
 
@@ -34,14 +35,39 @@ struct LocalShading {
   std::vector<Light> light;  // at most 4
   /// prescribed: values at the two ends of the ray, linear in arc length between
   std::array<Vector3, 2> m{}, k{}, b{};
+  bool light_volume = false;  // a pass fills one: its value is a factor of m, k and b
+};
+
+/// What a pass of light volumes is told beside its own parameters.
+struct LightSetting {
+  std::array<int, 3> dims;   // of the light volume: the grid of the data, where they have one
+  Affine to_world;           // sampler coordinates -> world relative to the box centre
+  double voxel;              // smallest spacing of that grid, world units
+  std::vector<Light> light;  // directional and point lights; at least one
+  bool rgb;                  // extinction differs between channels: one light per volume, a channel per colour
+  double value_lo, value_hi;  // values of the first and the last entry of light_tau, in the transfer functions' unit
+  int entries;                // of light_tau
+  Vector3 largest_tau;        // per channel and world length
+  bool surfaces;              // some extinction has no length: surfaces, Dirac terms, opaque ranges
+  std::uint32_t seed;         // of the case
+
+  /// Sampler coordinates per world length of a unit direction in the world.
+  Vector3 sampler_direction(const Vector3& world) const;
+  /// Lights whose depths one stage finds at once.
+  int lights_per_volume() const { return rgb ? 1 : 4; }
+  int channels_from(int first_light) const;
 };
 
 class IlluminationPlugin : public Plugin {
  public:
-  /// Bytes that the pass will allocate at the most. Passes of local shading hold nothing.
-  virtual std::uint64_t bytes_needed(const ParameterSet& /*parameters*/) const { return 0; }
-  /// Fills `shading`, which holds the lights already.
-  virtual void shade(const ParameterSet& parameters, LocalShading& shading) const = 0;
+  /// Fills `shading`, which holds the lights already. A pass of light volumes leaves it alone.
+  virtual void shade(const ParameterSet& /*parameters*/, LocalShading& /*shading*/) const {}
+  /// True for a pass that fills a light volume: then plan() is called.
+  virtual bool fills_light_volume() const { return false; }
+  /// The light volume's grid for data that has none of its own: points along the longest side of the box.
+  virtual int resolution(const ParameterSet& /*parameters*/) const { return 128; }
+  /// The stages that fill the light volume. Throws InputError naming the key for what cannot be.
+  virtual LightPlan plan(const ParameterSet& /*parameters*/, const LightSetting& /*setting*/) const { return {}; }
 };
 
 }  // namespace dvrlab

@@ -32,6 +32,7 @@ typedef struct DVR_OF(dvr_chunk) {
   DVR_REAL g[3][(DVR_CHUNK + 2) * DVR_MAX_WIDTH]; /* world gradient of v, where it was needed */
   DVR_REAL h[3][DVR_CHUNK * DVR_MAX_WIDTH];       /* a walking sampler: at the front end of each segment, where the
                                                     gradient may jump; g is at the back end then */
+  DVR_REAL m[3][(DVR_CHUNK + 2) * DVR_MAX_WIDTH]; /* light volumes' value, where something may be lit */
   DVR_REAL len[DVR_CHUNK * DVR_MAX_WIDTH];        /* true length; 0: no segment (masked) */
   DVR_REAL c[3][DVR_CHUNK * DVR_MAX_WIDTH];       /* radiance of the segment */
   DVR_REAL t[3][DVR_CHUNK * DVR_MAX_WIDTH];       /* transmittance; grey: the first only */
@@ -56,10 +57,14 @@ typedef struct DVR_OF(dvr_entries) {
   void (*try_face)(void* kernel, struct DVR_OF(dvr_entries) * rays, int face);
 } DVR_OF(dvr_entries);
 
+/* v[l] = the stored value at sampler coordinates (p[0][l], p[1][l], p[2][l]), for one packet's lanes. */
+typedef void (*DVR_OF(dvr_values))(const void* frame, const DVR_REAL (*p)[DVR_MAX_WIDTH], DVR_REAL* v);
+
 typedef struct DVR_OF(dvr_sampler_calls) {
   void (*start)(const void* frame, DVR_OF(dvr_packet) * packet);
   /* Fills the next chunk; returns its number of segments, 0 when every lane is through. */
   int (*fill)(const void* frame, DVR_OF(dvr_packet) * packet, DVR_OF(dvr_chunk) * chunk);
+  DVR_OF(dvr_values) values; /* 0: the sampler cannot be asked at positions */
 } DVR_OF(dvr_sampler_calls);
 
 typedef struct DVR_OF(dvr_estimator_calls) {
@@ -74,8 +79,8 @@ typedef struct DVR_OF(dvr_march_calls) {
 } DVR_OF(dvr_march_calls);
 
 typedef struct DVR_OF(dvr_stage_calls) {
-  /* Voxels (x0 .. x1-1, y, z) of the output volume, in order. */
-  void (*fill_row)(const void* frame, int x0, int x1, int y, int z, DVR_REAL* out);
+  /* Voxels (x0 .. x1-1, y, z) of the output volume, in order: channel c at out + c * plane. */
+  void (*fill_row)(const void* frame, int x0, int x1, int y, int z, DVR_REAL* out, unsigned long long plane);
 } DVR_OF(dvr_stage_calls);
 
 typedef union DVR_OF(dvr_calls) {

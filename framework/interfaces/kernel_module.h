@@ -7,7 +7,7 @@
 #ifndef DVRLAB_KERNEL_MODULE_H
 #define DVRLAB_KERNEL_MODULE_H
 
-#define DVR_KERNEL_ABI 4
+#define DVR_KERNEL_ABI 5
 #define DVR_CHUNK 8      /* segments per chunk */
 #define DVR_MAX_WIDTH 16 /* lanes of the widest instruction set */
 #define DVR_WALK_OPEN (1 << 30)
@@ -23,7 +23,8 @@ enum {
   DVR_ELEMENT_I32,
   DVR_ELEMENT_IVEC4
 };
-enum { DVR_FEATURE_RGB = 1, DVR_FEATURE_FULL = 2 }; /* bits that choose the compiled variant */
+/* Bits that choose the compiled variant; a sampler with the last one answers `values` and nothing else. */
+enum { DVR_FEATURE_RGB = 1, DVR_FEATURE_FULL = 2, DVR_FEATURE_VALUES = 4 };
 
 typedef struct dvr_uniform {
   const char* name;
@@ -60,6 +61,13 @@ typedef struct dvr_entry_surface {
   void (*find64)(const void* index, dvr_entries64* rays);
 } dvr_entry_surface;
 
+/* The field that a stage asks: the sampler module's state and its function. */
+typedef struct dvr_field {
+  const void* frame;
+  dvr_values values;
+  dvr_values64 values64;
+} dvr_field;
+
 typedef struct dvr_bindings {
   const dvr_uniform* uniforms;
   int uniform_count;
@@ -67,6 +75,7 @@ typedef struct dvr_bindings {
   int buffer_count;
   const dvr_entry_surface* surfaces;
   int surface_count;
+  dvr_field field; /* stages only */
 } dvr_bindings;
 
 typedef struct dvr_kernel_module {

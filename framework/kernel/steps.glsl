@@ -6,7 +6,7 @@
 int stream_i = 0, stream_n = 0, until_check = 0;  // until_check: segments until the next look at the macrocells
 int stream_rows = 0;                              // rows of segment stream_i that were taken already
 float stream_offset = 0.0, s_a = 0.0, v_a = 0.0, s_b = 0.0, v_b = 0.0, s_c = 0.0, v_c = 0.0;
-vec3 g_b = vec3(0.0), g_c = vec3(0.0);
+vec3 g_b = vec3(0.0), g_c = vec3(0.0), m_b = vec3(0.0), m_c = vec3(0.0);
 bool stream_ready = false;  // this round completed a segment
 
 float row_position(int row) {
@@ -47,6 +47,23 @@ void stream_gradients(inout segment q) {
 #endif
 }
 
+// The light volumes' values, likewise: that of every back end is kept for the next front end.
+void stream_light(inout segment q) {
+#if DVR_EAGER_GRADIENTS
+  m_b = m_c;
+  m_c = sample_light(stream_o + stream_d * (frame_neighbours != 0 ? s_b : s_c));
+  q = segment_in_light(q, frame_samples_ends != 0 ? m_b : m_c, m_c);
+#else
+  if (stream_ready && frame_samples_ends != 0) {
+    if (medium_lit(v_b, v_c)) q = segment_in_light(q, sample_light(stream_o + stream_d * s_b), sample_light(stream_o + stream_d * s_c));
+  } else if (stream_ready) {
+    vec3 m = vec3(0.0);
+    if (medium_lit(q.v, q.v)) m = sample_light(stream_o + stream_d * q.s);
+    q = segment_in_light(q, m, m);
+  }
+#endif
+}
+
 bool stream_next(inout segment q) {
   while (frame_skip != 0 && until_check == 0 && stream_i < stream_n) {
     int next = steps_leap(stream_i, stream_n, stream_L, stream_offset, stream_o, stream_d);
@@ -71,6 +88,7 @@ bool stream_next(inout segment q) {
   q.v = frame_neighbours != 0 ? v_b : v_c;
   q.g0 = q.g1 = q.g = vec3(0.0);
   if (frame_gradient != 0) stream_gradients(q);
+  if (frame_lit != 0) stream_light(q);
   q.len = steps_length(stream_i, stream_n, stream_L, stream_offset);
   stream_rows = stream_ready ? last : stream_rows + 1;
   if (stream_ready) {

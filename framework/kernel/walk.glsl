@@ -46,6 +46,10 @@ bool stream_next(inout segment q) {
     q.g1 = walk_gradient(stream_o, stream_d, stream_front, s1);
     q.g = (q.g0 + q.g1) * 0.5;
   }
+  if (kind == 1 && frame_lit != 0 && medium_lit(v0, v1)) {
+    vec3 m1 = sample_light(stream_o + stream_d * (frame_samples_ends != 0 ? s1 : q.s));
+    q = segment_in_light(q, frame_samples_ends != 0 ? sample_light(stream_o + stream_d * s0) : m1, m1);
+  }
   stream_walking = kind != 0;
   return kind == 1;
 }

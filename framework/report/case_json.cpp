@@ -31,7 +31,7 @@ json backend_of(const CaseRecord& r) {
   json memory = json::object();
   for (const auto& [part, bytes] : r.memory) memory[part] = static_cast<std::uint64_t>(bytes);
   const ParameterSet& top = r.plan->resolved.top;
-  return {{"device", r.device.device},
+  json section = {{"device", r.device.device},
           {"driver", r.device.driver},
           {"api", r.device.api},
           {"detail", r.device.detail},
@@ -44,6 +44,8 @@ json backend_of(const CaseRecord& r) {
           {"memory_bytes", memory},
           {"repeats", top.integer("repeat")},
           {"times", times}};
+  for (const auto& [name, value] : r.light_error) section["light_error"][name] = json_number(value);
+  return section;
 }
 
 json metrics_of(const CaseRecord& r) {

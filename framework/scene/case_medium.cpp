@@ -139,13 +139,14 @@ MediumTableOptions table_options(const ResolvedCase& c, const Field& field) {
 }
 
 MediumTableOptions table_options(const ResolvedCase& c, const Field& field, const Medium& medium,
-                                 LocalShading::Mode light) {
+                                 const LocalShading& light) {
   using Mode = LocalShading::Mode;
   const Terms terms = medium.terms();
   MediumTableOptions o = table_options(c, field);
   o.rgb = terms.rgb();
-  o.full = terms.surfaces() || terms.dirac() || light == Mode::prescribed || (medium.shaded() && light != Mode::none);
-  o.lit_particles = light == Mode::prescribed;
+  o.full = terms.surfaces() || terms.dirac() || light.mode == Mode::prescribed ||
+           (medium.shaded() && light.mode != Mode::none) || light.light_volume;
+  o.lit_particles = light.mode == Mode::prescribed || light.light_volume;
   o.fold_shaded = !o.full;
   return o;
 }

@@ -28,11 +28,27 @@ void check_tables(const ResolvedCase& c, const EstimatorPlugin& estimator, const
 }
 
 /// The light of the case's passes alone; none where they are wrong, which is said elsewhere.
-LocalShading::Mode light_of(const ResolvedCase& c, const Registry& registry) {
+LocalShading light_of(const ResolvedCase& c, const Registry& registry) {
   try {
-    return local_shading(c, registry, FormulaField(), false).mode;
+    return local_shading(c, registry, FormulaField(), false);
   } catch (const InputError&) {
-    return LocalShading::Mode::none;
+    return {};
+  }
+}
+
+/// One pass of each kind: another would replace it.
+void check_passes(const ResolvedCase& c, const Registry& registry, Problems& problems) {
+  const Section* shading = nullptr;
+  const Section* volume = nullptr;
+  for (std::size_t i = 0; i < c.illumination.size(); ++i) {
+    const Section& s = c.illumination[i];
+    const bool fills = registry.get<IlluminationPlugin>("illumination", s.type).fills_light_volume();
+    const Section*& first = fills ? volume : shading;
+    if (first != nullptr)
+      problems.add("illumination[" + std::to_string(i) + "]: a second " +
+                   (fills ? "pass of light volumes" : "local shading pass") + " would replace the first (" +
+                   first->type + "); give one");
+    first = &s;
   }
 }
 
@@ -63,9 +79,7 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
     if (!refusal.empty()) throw InputError("precision: backend \"" + c.backend.type + "\" " + refusal);
   });
   part([&] { check_cells(c); });
-  if (c.illumination.size() > 1)
-    problems.add("illumination[1]: a second local shading pass would replace the first (" + c.illumination[0].type +
-                 "); give one");
+  check_passes(c, registry, problems);
   part([&] {
     const std::string sampler = c.data.parameters.text("sampler");
     if (!sampler.empty()) registry.get<SamplerPlugin>("sampler", sampler, "data.sampler");

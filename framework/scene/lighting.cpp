@@ -56,8 +56,11 @@ LocalShading local_shading(const ResolvedCase& c, const Registry& registry, cons
     if (s.type != "head") place_light(s, c.camera, frame, light);
     shading.light.push_back(light);
   }
-  for (const Section& s : c.illumination)
-    registry.get<IlluminationPlugin>("illumination", s.type).shade(s.parameters, shading);
+  for (const Section& s : c.illumination) {
+    const auto& pass = registry.get<IlluminationPlugin>("illumination", s.type);
+    pass.shade(s.parameters, shading);
+    shading.light_volume = shading.light_volume || pass.fills_light_volume();
+  }
   return shading;
 }
 

@@ -89,7 +89,7 @@ bool weighs_extinction(const Medium& medium, Term weight, Term extinction) {
 MediumLayout::Form form_of(const Medium& medium, const MediumTableOptions& o) {
   using enum MediumLayout::Form;
   const Terms terms = medium.terms();
-  if (!o.full || o.rgb || o.lit_particles) return general;
+  if (!o.full || o.rgb || (o.lit_particles && terms.has(Term::E))) return general;
   if (terms.surfaces() && !weighs_extinction(medium, Term::W_s, Term::tau_s)) return general;
   if (!terms.has(Term::S_l) && !terms.has(Term::W_l)) return compact_unlit;
   const bool mixed = terms.has(Term::E) || terms.has(Term::P) || !weighs_extinction(medium, Term::W_l, Term::tau_l);
@@ -172,6 +172,7 @@ void add_medium(const Medium& medium, const MediumTableOptions& o, KernelUnit& u
       {Uniform::constant_integer("medium_use_nodes", o.nodes ? 1 : 0),
        Uniform::constant_integer("medium_groups", layout.count()),
        Uniform::constant_integer("medium_form", int(layout.form())),
+       Uniform::constant_integer("medium_lit_particles", o.full && o.lit_particles ? 1 : 0),
        Uniform::constant_integer("medium_emits", layout.emits() ? 1 : 0),
        Uniform::constant_integer("medium_surfaces", layout.surfaces() ? 1 : 0), Uniform::real("medium_lo", o.lo),
        Uniform::real("medium_scale", (o.entries - 1) / (o.hi - o.lo)), Uniform::real("medium_last", o.entries - 1)});

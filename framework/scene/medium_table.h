@@ -13,7 +13,7 @@ struct MediumTableOptions {
   int entries = 4096;
   double lo = 0, hi = 1;  // stored values of the first and last entry
   bool rgb = false, full = false;
-  bool lit_particles = false;  // full: m is not 1 everywhere, so E and P must stay apart
+  bool lit_particles = false;  // full: m is not 1 everywhere, so where there is E, it must stay apart from P
   bool fold_shaded = false;    // plain: the unlit medium's source is E + P + S_l (no local shading: k = 1, b = 0)
 };
 

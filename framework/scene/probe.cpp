@@ -2,14 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/interfaces/error.h"
 
 namespace dvrlab {
-
-std::vector<ProbeSegment> BackendSession::probe(const FrameJob&, int, int) {
-  throw NotSupported("backend " + device(Precision::strict).api +
-                     ": no probe; probe with backend cpu, which marches the same bits");
-}
 
 std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y) {
   const PluginEntryInfo& cpu = registry.find("backend", "cpu");

@@ -11,11 +11,13 @@
 #include "framework/scene/case_medium.h"
 #include "framework/scene/cells.h"
 #include "framework/scene/discrete_surfaces.h"
+#include "framework/scene/light_work.h"
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
 #include "framework/scene/mean_table.h"
 #include "framework/scene/phase_clock.h"
 #include "framework/scene/sampling.h"
+#include "framework/scene/tf_domain.h"
 
 namespace dvrlab {
 
@@ -30,6 +32,13 @@ double longest_segment(const ResolvedCase& c, const Field& field, double step) {
       field.to_world.vector({field.hi[0] - field.lo[0], field.hi[1] - field.lo[1], field.hi[2] - field.lo[2]});
   const double longest = mesh != nullptr ? mesh->longest : std::hypot(d[0], d[1], d[2]);
   return samples_faces(c) ? std::min(longest, step) : longest;
+}
+
+std::shared_ptr<const LightWork> light_work_of(const ResolvedCase& c, const Registry& registry, const Field& field,
+                                               const Medium& medium, const MediumTableOptions& options,
+                                               const LocalShading& shading) {
+  const TfDomain domain = tf_domain(c.optical_model.parameters, field);
+  return light_work(c, registry, field, medium, options, shading, domain.slope(field), domain.intercept(field));
 }
 
 /// The sampler that reads the field: the config's, else the one that the data names.
@@ -84,8 +93,9 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
                static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler).bytes_needed(field)));
   std::vector<std::string> notes;
   const Medium medium = stored_medium(c, registry, field, notes);
-  const auto light = local_shading(c, registry, field, c.image.text("space") == "linear").mode;
-  TableLayout layout = table_layout(c, medium, table_options(c, field, medium, light));
+  const LocalShading shading = local_shading(c, registry, field, c.image.text("space") == "linear");
+  const MediumTableOptions options = table_options(c, field, medium, shading);
+  TableLayout layout = table_layout(c, medium, options);
   layout.walks = dynamic_cast<const MeshField*>(&field) != nullptr;
   const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type);
   memory.state("estimator '" + c.estimator.type + "'",
@@ -94,10 +104,11 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
   if (declared.mean_bins > 0)
     memory.state("mean tables", static_cast<double>(mean_table_bytes(declared.mean_bins, layout.groups + 1,
                                                                      layout.precision == Precision::fp64)));
-  for (const Section& s : c.illumination)
-    memory.state(
-        "illumination '" + s.type + "'",
-        static_cast<double>(registry.get<IlluminationPlugin>("illumination", s.type).bytes_needed(s.parameters)));
+  if (shading.light_volume) {
+    const auto work = light_work_of(c, registry, field, medium, options, shading);
+    const double precisions = precision_of(c) == Precision::fp64 ? 3 : 1;
+    memory.state("light volumes", static_cast<double>(work->bytes()) * precisions);
+  }
 }
 
 Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_ptr<const Field> field) {
@@ -130,9 +141,9 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const LocalShading shading = local_shading(c, registry, *field, c.image.text("space") == "linear");
   const bool surfaces = terms.surfaces();
   const bool shaded = scene.medium.shaded();
-  if (shaded && shading.mode == LocalShading::Mode::none)
+  if (shaded && shading.mode == LocalShading::Mode::none && !shading.light_volume)
     scene.notes.emplace_back("optical_model: shaded, but there is no illumination pass: rendered unlit (k = 1, b = 0)");
-  const MediumTableOptions options = table_options(c, *field, scene.medium, shading.mode);
+  const MediumTableOptions options = table_options(c, *field, scene.medium, shading);
   job.rgb = options.rgb;
   job.full = options.full;
 
@@ -151,6 +162,8 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const MediumLayout layout(before_opaque, options);
   const bool barycentre = declared.barycentre && job.full;
   add_shading(shading, std::abs(field->slope), job.frame);
+  if (shading.light_volume) job.light = light_work_of(c, registry, *field, scene.medium, options, shading);
+  add_light_volume(job.light.get(), OccupiedBins(scene.medium, options, 0).sums(), job.frame);
   const bool gradient = job.full && shaded && shading.mode == LocalShading::Mode::blinn_phong;
   job.frame.uniforms.insert(
       job.frame.uniforms.end(),
@@ -197,7 +210,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   add_means(bins, barycentre, job.precision == Precision::fp64, job.frame);
   estimator.prepare(
       c.estimator.parameters,
-      {&seen, options.lo, options.hi, scene.step, job.full, shading.mode == LocalShading::Mode::prescribed,
+      {&seen, options.lo, options.hi, scene.step, job.full, options.lit_particles,
        job.precision, c.estimator.folder, walks(job.sampler) ? longest_segment(c, *field, scene.step) : 0.0, &bins},
       job.estimator);
   // A mean is six fetches per group; the bin of the next opaque value is one.

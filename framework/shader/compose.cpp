@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <span>
 #include <stdexcept>
 
 #include "framework/interfaces/error.h"
@@ -15,23 +16,25 @@ namespace dvrlab {
 namespace {
 
 /// The order of the texts. A part without a file is generated, is the kernel of a plugin, or the stream that fits it.
-enum class From { framework, generated, entry, sampler, stream, estimator };
+enum class From { framework, generated, entry, sampler, stream, estimator, stage };
 struct Part {
   From from;
   const char* file;
 };
-constexpr Part part_list[] = {
+constexpr Part frame_parts[] = {
     {From::framework, "compat/glsl.glsl"},
     {From::generated, ""},
     {From::framework, "math.kernel"},
     {From::framework, "algebra.kernel"},
     {From::framework, "medium.kernel"},
     {From::framework, "ray.kernel"},
+    {From::framework, "volume.kernel"},
+    {From::framework, "light_volume.kernel"},
     {From::framework, "shading.kernel"},
     {From::framework, "segment.kernel"},
-    {From::framework, "volume.kernel"},
     {From::entry, "tetrahedra.kernel"},
     {From::sampler, ""},
+    {From::framework, "random.kernel"},
     {From::framework, "steps.kernel"},
     {From::framework, "parts.kernel"},
     {From::framework, "stream.glsl"},
@@ -43,6 +46,26 @@ constexpr Part part_list[] = {
     {From::framework, "integrate.kernel"},
     {From::framework, "composite.kernel"},
     {From::framework, "march.glsl"},
+};
+constexpr Part stage_parts[] = {
+    {From::framework, "compat/glsl.glsl"}, {From::generated, ""},
+    {From::framework, "math.kernel"},      {From::framework, "algebra.kernel"},
+    {From::framework, "volume.kernel"},    {From::sampler, ""},
+    {From::framework, "random.kernel"},    {From::framework, "light_ray.kernel"},
+    {From::stage, ""},                     {From::framework, "stage.glsl"},
+};
+
+/// What the two kinds of shader share, and what tells them apart.
+struct Composition {
+  std::span<const Part> parts;
+  std::vector<std::pair<const char*, const KernelUnit*>> units;  // by their roles
+  const KernelUnit* sampler;
+  const char* output;  // type of its elements
+  int width, height;
+  std::string features;  // #define lines
+  std::string kernel_folder;
+  std::uint64_t gpu_buffer_limit;
+  bool fast;
 };
 
 std::string read_text(const std::string& file) {
@@ -84,9 +107,7 @@ void check_page_count(const ComposedShader& shader, const ShaderLimits& limits, 
                        " beside the output; use smaller data or the cpu backend");
 }
 
-}  // namespace
-
-ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
+ComposedShader compose(const Composition& job, const ShaderLimits& limits) {
   constexpr std::uint64_t smallest_limit = 64;  // bytes; a page holds whole words and the output's vectors
   if (job.gpu_buffer_limit != 0 && job.gpu_buffer_limit < smallest_limit)
     throw InputError("limits.gpu_buffer is " + std::to_string(job.gpu_buffer_limit) + " bytes; it must be at least " +
@@ -95,7 +116,7 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
       job.gpu_buffer_limit == 0 ? limits.buffer_range : std::min(limits.buffer_range, job.gpu_buffer_limit);
   ComposedShader shader;
   shader.target = limits.target;
-  shader.fast = job.precision == Precision::fast;
+  shader.fast = job.fast;
   if (!shader.fast) shader.float_modes = limits.float_modes;
   shader.band.name = "dvr_band";
 
@@ -103,11 +124,9 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
                                   Uniform::integer("frame_height", job.height)};
   Names names;
   for (const Uniform& uniform : band) names.add(uniform.name, "the backend");
-  const std::pair<const char*, const KernelUnit*> units[] = {
-      {"frame", &job.frame}, {"sampler", &job.sampler}, {"estimator", &job.estimator}};
   int binding = ComposedShader::output_binding + 1;
   std::string buffers;
-  for (const auto& [role, unit] : units) {
+  for (const auto& [role, unit] : job.units) {
     names.add(*unit, role);
     const auto bind = [&](const Buffer& buffer) {
       shader.buffers.push_back(page_buffer(buffer, range, binding));
@@ -124,8 +143,9 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   shader.band = layout_block("dvr_band", band, limits.uniform_range);
   shader.band.binding = binding++;
   std::string generated =
-      "layout(std430, binding = 0) writeonly buffer dvr_output { vec4 dvr_out[]; };\n" + block_text(shader.band, band);
-  for (const auto& [role, unit] : units) {
+      std::string("layout(std430, binding = 0) writeonly buffer dvr_output { ") + job.output + " dvr_out[]; };\n" +
+      block_text(shader.band, band);
+  for (const auto& [role, unit] : job.units) {
     UniformBlock block = layout_block(std::string("dvr_") + role, unit->uniforms, limits.uniform_range);
     block.binding = binding;
     generated += block_text(block, unit->uniforms);
@@ -136,42 +156,79 @@ ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
   generated += buffers;
 
   shader.sources.push_back("preamble");
-  shader.text = std::string("#version 450\n#define DVR_RGB ") + (job.rgb ? "1" : "0") + "\n#define DVR_FULL " +
-                (job.full ? "1" : "0") + "\n#define DVR_EAGER_GRADIENTS " + (limits.runs_both_branches ? "1" : "0") +
-                "\n";
-  for (const Part& part : part_list) {
+  shader.text = "#version 450\n" + job.features;
+  for (const Part& part : job.parts) {
     std::string name, text;
     switch (part.from) {
       case From::framework:
         name = part.file, text = read_text(job.kernel_folder + "/" + name);
         break;
       case From::stream:
-        name = walks(job.sampler) ? "walk.glsl" : "steps.glsl", text = read_text(job.kernel_folder + "/" + name);
+        name = walks(*job.sampler) ? "walk.glsl" : "steps.glsl", text = read_text(job.kernel_folder + "/" + name);
         break;
       case From::generated:
         name = "generated declarations", text = generated;
         break;
       case From::entry: {
         // A walk through tetrahedra, for samplers that have some.
-        if (job.sampler.surfaces.empty()) continue;
+        if (job.sampler->surfaces.empty()) continue;
         const std::string line = "#line 1 " + std::to_string(shader.sources.size()) + "\n";
         name = part.file, text = read_text(job.kernel_folder + "/entry.kernel");
-        for (const EntrySurface& surface : job.sampler.surfaces) text += entry_declaration(surface);
+        for (const EntrySurface& surface : job.sampler->surfaces) text += entry_declaration(surface);
         text += line + read_text(job.kernel_folder + "/" + name);
-        for (const EntrySurface& surface : job.sampler.surfaces) text += entry_definition(surface);
+        for (const EntrySurface& surface : job.sampler->surfaces) text += entry_definition(surface);
         break;
       }
       case From::sampler:
-        name = job.sampler.folder + "/" + job.sampler.plugin + ".kernel", text = read_text(name);
+        name = job.sampler->folder + "/" + job.sampler->plugin + ".kernel", text = read_text(name);
         break;
       case From::estimator:
-        name = job.estimator.folder + "/" + job.estimator.plugin + ".kernel", text = read_text(name);
+      case From::stage: {
+        const KernelUnit& unit = *job.units.back().second;
+        name = unit.folder + "/" + unit.plugin + ".kernel", text = read_text(name);
         break;
+      }
     }
     shader.text += "#line 1 " + std::to_string(shader.sources.size()) + "\n" + text + "\n";
     shader.sources.push_back(name);
   }
   return shader;
+}
+
+std::string define(const char* name, bool on) { return std::string("#define ") + name + (on ? " 1\n" : " 0\n"); }
+
+}  // namespace
+
+ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits) {
+  return compose({frame_parts,
+                  {{"frame", &job.frame}, {"sampler", &job.sampler}, {"estimator", &job.estimator}},
+                  &job.sampler,
+                  "vec4",
+                  job.width,
+                  job.height,
+                  define("DVR_RGB", job.rgb) + define("DVR_FULL", job.full) +
+                      define("DVR_EAGER_GRADIENTS", limits.runs_both_branches),
+                  job.kernel_folder,
+                  job.gpu_buffer_limit,
+                  job.precision == Precision::fast},
+                 limits);
+}
+
+ComposedShader compose_stage(const StageJob& job, const ShaderLimits& limits) {
+  if (walks(job.sampler))
+    throw NotSupported("sampler \"" + job.sampler.plugin +
+                       "\" cannot be asked at positions, so that no light volume can be filled");
+  return compose({stage_parts,
+                  {{"rays", &job.rays}, {"sampler", &job.sampler}, {"stage", &job.stage}},
+                  &job.sampler,
+                  "float",
+                  job.grid.dims[0],
+                  job.grid.dims[1] * job.grid.dims[2],
+                  define("DVR_RGB", job.rgb),
+                  job.kernel_folder,
+                  job.gpu_buffer_limit,
+                  job.precision == Precision::fast},
+                 limits);
 }
 
 }  // namespace dvrlab

@@ -45,7 +45,7 @@ void decode_rows(const std::vector<float>& rows, int first, int count, FrameResu
 }  // namespace
 
 GpuSession::GpuSession(std::unique_ptr<GpuDevice> device, double band_seconds)
-    : device_(std::move(device)), plan_(band_seconds) {}
+    : device_(std::move(device)), band_seconds_(band_seconds), plan_(band_seconds) {}
 
 int GpuSession::output_rows(int width, int height) const {
   constexpr int group = ComposedShader::workgroup;
@@ -131,22 +131,22 @@ void GpuSession::bind(const ComposedShader& shader) {
   device_->bind(ComposedShader::output_binding, *output_);
 }
 
-void GpuSession::write_band(const FrameJob& job, const ComposedShader& shader, int y, int height) {
+void GpuSession::write_band(const ComposedShader& shader, int row, int width, int height) {
   std::vector<std::byte> bytes = shader.band.bytes;
-  const int values[] = {y, job.width, height};
+  const int values[] = {row, width, height};
   for (std::size_t i = 0; i < shader.band.members.size(); ++i)
     std::memcpy(bytes.data() + shader.band.members[i].offset, &values[i], sizeof(int));
   device_->write(*uniforms_[0], bytes.data(), bytes.size());
 }
 
-void GpuSession::march(const FrameJob& job, const ComposedShader& shader, FrameResult& result) {
+void GpuSession::march_bands(const FrameJob& job, const ComposedShader& shader, FrameResult& result) {
   constexpr int group = ComposedShader::workgroup;
   PhaseTime march{"march", 0, 0}, download{"download", 0, 0};
   std::vector<float> rows;
   const int largest = output_rows(job.width, job.height);
   for (int y = 0; y < job.height;) {
     const int count = plan_.rows(job.height - y, largest);
-    write_band(job, shader, y, job.height);
+    write_band(shader, y, job.width, job.height);
     const PhaseClock busy;
     double seconds = device_->dispatch(unsigned(job.width + group - 1) / group, unsigned(count) / group);
     if (seconds < 0) seconds = busy.wall();
@@ -166,7 +166,7 @@ void GpuSession::march(const FrameJob& job, const ComposedShader& shader, FrameR
   result.times.push_back(download);
 }
 
-void GpuSession::render(const FrameJob& job, FrameResult& result) {
+void GpuSession::march(const FrameJob& job, FrameResult& result) {
   result = FrameResult{};
   const std::size_t values = std::size_t(job.width) * std::size_t(job.height) * 3;
   result.image = {job.width, job.height, std::vector<float>(values), std::vector<float>(values)};
@@ -190,11 +190,51 @@ void GpuSession::render(const FrameJob& job, FrameResult& result) {
   // A driver may finish its compilation at the first dispatch: one group outside the image, counted as compiling.
   const PhaseClock warming;
   if (is_new) {
-    write_band(job, shader, 0, 0);
+    write_band(shader, 0, job.width, 0);
     device_->dispatch(1, 1);
   }
   result.times.push_back({"compile", compile_wall + warming.wall(), compile_cpu + warming.cpu()});
-  march(job, shader, result);
+  march_bands(job, shader, result);
+  device_->end_frame();
+}
+
+void GpuSession::fill(const StageJob& job, LightVolume& volume) {
+  const auto width = std::size_t(job.grid.dims[0]), channels = std::size_t(job.grid.channels);
+  const int height = job.grid.dims[1] * job.grid.dims[2];
+  const std::uint64_t row_bytes = width * channels * sizeof(float);
+  constexpr int group = ComposedShader::workgroup;
+  constexpr std::uint64_t most_groups = 65535;  // in y: what every device dispatches
+  const ShaderLimits limits = device_->limits();
+  const auto largest = int(std::min({limits.buffer_range / row_bytes, most_groups * group, std::uint64_t(height) + group - 1})) / group * group;
+  if (largest < group)
+    throw NotSupported("a light volume " + std::to_string(width) + " points wide does not fit the device's storage buffers of " +
+                       std::to_string(limits.buffer_range) + " bytes");
+  if (job.long_loops && limits.runs_both_branches)
+    throw NotSupported("stage " + job.stage.plugin + " may take more rounds per voxel than software GPUs make (65535); use backend cpu");
+  device_->begin_frame();
+  const ComposedShader shader = compose_stage(job, limits);
+  compile(shader);
+  output_.reset();
+  output_ = device_->make_buffer(BufferUse::output, std::uint64_t(largest) * row_bytes);
+  upload(shader);
+  bind(shader);
+  BandPlan plan(band_seconds_);
+  std::vector<float> rows;
+  for (int row = 0; row < height;) {
+    const int count = plan.rows(height - row, largest);
+    write_band(shader, row, int(width), height);
+    const PhaseClock busy;
+    const double seconds = device_->dispatch(unsigned(width + group - 1) / group, unsigned(count) / group);
+    plan.measured(count, seconds < 0 ? busy.wall() : seconds);
+    const int real = std::min(count, height - row);
+    rows.resize(std::size_t(real) * width * channels);
+    device_->read(*output_, rows.data(), rows.size() * sizeof(float));
+    for (std::size_t r = 0; r < std::size_t(real); ++r)
+      for (std::size_t c = 0; c < channels; ++c)
+        std::copy_n(rows.begin() + std::ptrdiff_t((r * channels + c) * width), width,
+                    volume.values->begin() + std::ptrdiff_t(c * job.grid.points() + (std::size_t(row) + r) * width));
+    row += count;
+  }
   device_->end_frame();
 }
 

@@ -15,7 +15,10 @@ class GpuSession final : public BackendSession {
   GpuSession(std::unique_ptr<GpuDevice> device, double band_seconds);
   DeviceInfo device(Precision) const override { return device_->info(); }
   std::uint64_t bytes_needed(const FrameJob& job) const override;
-  void render(const FrameJob& job, FrameResult& result) override;
+
+ protected:
+  void march(const FrameJob& job, FrameResult& result) override;
+  void fill(const StageJob& job, LightVolume& volume) override;
 
  private:
   /// A buffer of the job on the device. `source` knows the job's memory without keeping it: once that is freed, it
@@ -32,11 +35,13 @@ class GpuSession final : public BackendSession {
   bool compile(const ComposedShader& shader);
   void upload(const ComposedShader& shader);
   void bind(const ComposedShader& shader);
-  void march(const FrameJob& job, const ComposedShader& shader, FrameResult& result);
-  void write_band(const FrameJob& job, const ComposedShader& shader, int y, int height);
+  void march_bands(const FrameJob& job, const ComposedShader& shader, FrameResult& result);
+  /// The first row of the next dispatch, and the extent of all.
+  void write_band(const ComposedShader& shader, int row, int width, int height);
   int output_rows(int width, int height) const;
 
   std::unique_ptr<GpuDevice> device_;
+  double band_seconds_;
   BandPlan plan_;
   std::string program_;  // hash of the shader that the device holds
   std::map<std::string, Resident> resident_;

@@ -11,7 +11,7 @@ using dvr::floor;
 const dvr_uniform uniforms[] = {{"frame_step", DVR_F32, {1.0f, 0, 0, 0}, 0},
                                 {"frame_jitter", DVR_F32, {1.0f, 0, 0, 0}, 0},
                                 {"frame_seed", DVR_I32, {0, 0, 0, 0}, 7}};
-const dvr_bindings bindings = {uniforms, 3, nullptr, 0, nullptr, 0};
+const dvr_bindings bindings = {uniforms, 3, nullptr, 0, nullptr, 0, {}};
 
 #define DVR_RGB 0
 struct Probe : kernel_base {
@@ -21,6 +21,7 @@ struct Probe : kernel_base {
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/cpu/math.h"
 #include "framework/kernel/ray.kernel"
+#include "framework/kernel/random.kernel"
 #include "framework/kernel/steps.kernel"
   // clang-format on
 };

@@ -1,17 +1,11 @@
 // Negative controls: a planted fault in the kernel text of one backend must break the agreement with the others.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
-#include "tests/support/render.h"
+#include "tests/negative/faulty_folder.h"
 
 namespace dvrlab::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 json config() {
@@ -41,30 +35,6 @@ json mesh_config() {
                             {"estimator", {{"type", "exact"}}},
                             {"sampling", {{"type", "faces"}, {"step", 100}}}});
 }
-
-/// A copy of a kernel folder in which `from` in `file` became `to`.
-class FaultyFolder {
- public:
-  FaultyFolder(const std::string& folder, const std::string& file, const std::string& from, const std::string& to)
-      : path_(fs::temp_directory_path() / ("dvrlab_fault_" + std::to_string(::getpid()) + "_" + file)) {
-    fs::remove_all(path_);
-    fs::copy(folder, path_, fs::copy_options::recursive);
-    std::ifstream in(path_ / file);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
-    const std::size_t at = text.find(from);
-    if (at == std::string::npos) throw std::logic_error("the text to be spoilt is not in " + file + ": " + from);
-    text.replace(at, from.size(), to);
-    in.close();
-    std::ofstream(path_ / file) << text;
-  }
-  ~FaultyFolder() { fs::remove_all(path_); }
-  FaultyFolder(const FaultyFolder&) = delete;
-  FaultyFolder& operator=(const FaultyFolder&) = delete;
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
 
 struct Fault {
   std::string name, file, from, to;

@@ -41,20 +41,39 @@ Scene scene_of(const nlohmann::json& config) {
   return build_scene(c, registry(), fields.load(c, registry()));
 }
 
-FrameResult render(const nlohmann::json& config, const Target& target, const std::function<void(FrameJob&)>& alter) {
+namespace {
+/// Kept between calls.
+BackendSession& session_of(const nlohmann::json& full) {
   static std::map<std::string, std::unique_ptr<BackendSession>> sessions;
-  nlohmann::json full = config;
-  full["backend"] = target.backend;
   const ResolvedCase c = resolved(full);
   std::unique_ptr<BackendSession>& session = sessions[c.config.at("backend").dump()];
   if (!session)
     session = registry().get<BackendPlugin>("backend", c.backend.type).open(c.backend.parameters, c.backend.folder);
+  return *session;
+}
+}  // namespace
+
+FrameResult render(const nlohmann::json& config, const Target& target, const std::function<void(FrameJob&)>& alter) {
+  nlohmann::json full = config;
+  full["backend"] = target.backend;
+  BackendSession& session = session_of(full);
   Scene scene = scene_of(full);
   if (alter) alter(scene.job);
   FrameResult result;
-  session->render(scene.job, result);
+  session.render(scene.job, result);
   result.image = averaged(std::move(result.image), scene.rays_per_side);
   return result;
+}
+
+LightVolume illuminate(const nlohmann::json& config, const Target& target, std::vector<PhaseTime>* times,
+                       const std::function<void(FrameJob&)>& alter) {
+  nlohmann::json full = config;
+  full["backend"] = target.backend;
+  BackendSession& session = session_of(full);
+  Scene scene = scene_of(full);
+  if (alter) alter(scene.job);
+  std::vector<PhaseTime> ignored;
+  return session.illuminate(scene.job, times != nullptr ? *times : ignored);
 }
 
 double largest_difference(const FrameImage& a, const FrameImage& b) {

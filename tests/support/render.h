@@ -34,6 +34,10 @@ Scene scene_of(const nlohmann::json& config);
 FrameResult render(const nlohmann::json& config, const Target& target,
                    const std::function<void(FrameJob&)>& alter = nullptr);
 
+/// The light volume of the config, likewise. `times`: of the stages.
+LightVolume illuminate(const nlohmann::json& config, const Target& target, std::vector<PhaseTime>* times = nullptr,
+                       const std::function<void(FrameJob&)>& alter = nullptr);
+
 /// The largest absolute difference over radiance and transmittance; NaN counts as infinite.
 double largest_difference(const FrameImage& a, const FrameImage& b);
 /// Number of values whose bits differ.

@@ -7,6 +7,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/shading.kernel"
+  UNIFORM_I(frame_lit)
 #include "framework/kernel/segment.kernel"
 #include "framework/kernel/mean.kernel"
 #include "framework/kernel/discrete.kernel"
@@ -15,6 +16,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/integrate.kernel"
   // clang-format on
 
+  UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_walks)  // 1: a walking sampler: the gradient at the front end is its own
 
   // Fields of the segment that the kernel does not read are never loaded: everything is inlined into this loop.
@@ -34,6 +36,12 @@ struct DVR_STRUCT : kernel_base {
       q.g0 = frame_walks != 0 ? vec3r{load(c->h[0] + a), load(c->h[1] + a), load(c->h[2] + a)}
                               : vec3r{load(c->g[0] + a), load(c->g[1] + a), load(c->g[2] + a)};
       q.g1 = q.g = {load(c->g[0] + b), load(c->g[1] + b), load(c->g[2] + b)};
+#if DVR_FULL
+      if (frame_lit != 0) {
+        const vec3r m1 = {load(c->m[0] + b), load(c->m[1] + b), load(c->m[2] + b)};
+        q = segment_in_light(q, frame_samples_ends != 0 ? vec3r{load(c->m[0] + a), load(c->m[1] + a), load(c->m[2] + a)} : m1, m1);
+      }
+#endif
       vec3r color;
       spectral t;
       segment_integrate(q, color, t);

@@ -12,6 +12,7 @@ struct vec4r {
 };
 DVR_INLINE vec4r operator+(vec4r a, vec4r b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
 DVR_INLINE vec4r operator-(vec4r a, vec4r b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
+DVR_INLINE vec4r operator*(vec4r a, vec4r b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
 DVR_INLINE vec4r operator*(vec4r a, real b) { return {a.x * b, a.y * b, a.z * b, a.w * b}; }
 
 /// The eight voxels of a cell, x fastest.

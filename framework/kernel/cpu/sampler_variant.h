@@ -9,8 +9,10 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/cpu/math.h"
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
+#include "framework/kernel/random.kernel"
 #include "framework/kernel/steps.kernel"
 #include "framework/kernel/volume.kernel"
+#include "framework/kernel/light_volume.kernel"
 #include DVR_KERNEL_FILE
   // clang-format on
   UNIFORM_I(frame_samples_ends)
@@ -91,6 +93,7 @@ struct DVR_STRUCT : kernel_base {
         }
       }
     }
+    if (frame_lit != 0) light(c, steps, ends, o, d);
     store(p->i, i + I(steps));
     p->carried = 1;
     c->n = steps;
@@ -107,6 +110,23 @@ struct DVR_STRUCT : kernel_base {
     store(c->g[1] + row * W, g.y);
     store(c->g[2] + row * W, g.z);
   }
+  KFN void light(ray_chunk* c, int row, vec3r o, vec3r d) {
+    const vec3r m = sample_light(o + d * load(c->s + row * W));
+    store(c->m[0] + row * W, m.x);
+    store(c->m[1] + row * W, m.y);
+    store(c->m[2] + row * W, m.z);
+  }
+  // Rows of segments that may be lit: their back ends or centres, and with `ends` their front ends.
+  KFN void light(ray_chunk* c, int steps, bool ends, vec3r o, vec3r d) {
+    bool done = false;  // the light of row k is there
+    for (int k = 0; k < steps; ++k) {
+      const real v1 = load(c->v + (k + 1) * W), v0 = ends ? load(c->v + k * W) : v1;
+      const bool wanted = any_lane(medium_lit(v0, v1) && load(c->len + k * W) > R(0.0f));
+      if (wanted && ends && !done) light(c, k, o, d);
+      if (wanted) light(c, k + 1, o, d);
+      done = wanted;
+    }
+  }
   KFN void gradients_at_ends(ray_chunk* c, int steps, vec3r o, vec3r d) {
     bool done = false;  // the gradient of row k is there
     for (int k = 0; k < steps; ++k) {
@@ -119,11 +139,14 @@ struct DVR_STRUCT : kernel_base {
   }
 };
 #undef DVR_STRUCT
+#define DVR_STRUCT DVR_VALUES
+#include "framework/kernel/cpu/values_variant.h"
 #ifdef DVR_ISA_fp64
 #define DVR_STRUCT DVR_CELLS
 #include "framework/kernel/cpu/walker_variant.h"
 #undef DVR_STRUCT
 #endif
 #undef DVR_CELLS
+#undef DVR_VALUES
 #undef DVR_VOXEL
 #undef DVR_VOXEL_ELEMENT

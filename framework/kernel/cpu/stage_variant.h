@@ -1,26 +1,47 @@
 // Grey or RGB variant of a stage module (not guarded).
-template <class Voxel>
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
-#define VOXELS(name) dvr::voxels<Voxel> name = {this->template buffer<Voxel>(#name, element_of<Voxel>)};
 // The order of the texts matters.
 // clang-format off
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/cpu/math.h"
-#include "framework/kernel/medium.kernel"
 #include "framework/kernel/volume.kernel"
+#include "framework/kernel/random.kernel"
+#include "framework/kernel/light_ray.kernel"
 #include DVR_KERNEL_FILE
-// clang-format on
-#undef VOXELS
+  // clang-format on
 
-  // Lanes beyond x1 repeat the last voxel.
-  KFN void fill_row(int x0, int x1, int y, int z, scalar* out) {
+  const dvr_field* field = &bindings->field;
+
+  KFN real sample_value(vec3r p) const {
+    alignas(64) scalar place[3][DVR_MAX_WIDTH], value[DVR_MAX_WIDTH];
+    store3(place, p);
+#ifdef DVR_ISA_fp64
+    field->values64(field->frame, place, value);
+#else
+    field->values(field->frame, place, value);
+#endif
+    return load(value);
+  }
+  template <class T>
+  KFN static cell8 fetch_cell(dvr::voxels<T> b, inti base, int dy, int dz) {
+    return fetch_row_cell(b, base, dy, dz);
+  }
+
+  // The last packet of a row begins earlier rather than being short: its lanes stand side by side then.
+  KFN void fill_row(int x0, int x1, int y, int z, scalar* out, unsigned long long plane) {
     alignas(64) int lanes[DVR_MAX_WIDTH];
-    alignas(64) scalar values[DVR_MAX_WIDTH];
+    alignas(64) scalar values[4][DVR_MAX_WIDTH];
     for (int l = 0; l < W; ++l) lanes[l] = l;
     for (int x = x0; x < x1; x += W) {
-      store(values, stage_voxel(imin(load(lanes) + I(x), I(x1 - 1)), I(y), I(z)));
-      for (int l = 0; l < W && x + l < x1; ++l) out[x - x0 + l] = values[l];
+      const int first = x + W <= x1 || x1 - W < x0 ? x : x1 - W;
+      const vec4r v = stage_voxel(imin(load(lanes) + I(first), I(x1 - 1)), I(y), I(z));
+      store(values[0], v.x);
+      store(values[1], v.y);
+      store(values[2], v.z);
+      store(values[3], v.w);
+      for (int c = 0; c < stage_channels; ++c)
+        for (int l = 0; l < W && first + l < x1; ++l) out[c * plane + unsigned(first + l - x0)] = values[c][l];
     }
   }
 };

@@ -13,12 +13,13 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/medium.kernel"
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/parts.kernel"
+#include "framework/kernel/volume.kernel"
+#include "framework/kernel/light_volume.kernel"
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)
 #ifdef DVR_VOXEL
   vec3r walk_world_o, walk_world_d;
   real walk_inv_L;
-#include "framework/kernel/volume.kernel"
 #include "framework/kernel/shading.kernel"
 #include DVR_KERNEL_FILE
 #include "framework/kernel/cells.kernel"
@@ -168,6 +169,11 @@ struct DVR_STRUCT : kernel_base {
       const vec3r a = walk_gradient(o, d, front, s0), b = walk_gradient(o, d, front, s1);
       store3(c->h, k, a);
       store3(c->g, k + 1, ends ? b : (a + b) * R(0.5f));
+    }
+    if (frame_lit != 0 && any_lane(on && medium_lit(v0, v1))) {
+      const vec3r b = sample_light(o + d * (ends ? s1 : R(0.5f) * (s0 + s1)));
+      store3(c->m, k, ends ? sample_light(o + d * s0) : b);
+      store3(c->m, k + 1, b);
     }
   }
 

@@ -50,12 +50,11 @@ class Module {
     align_ = std::align_val_t(align);
     char missing[128] = "";
     // No surfaces: a mesh's sampler will say that its own is missing.
-    const dvr_bindings all{bindings.uniforms.data(),
-                           int(bindings.uniforms.size()),
-                           bindings.buffers.data(),
-                           int(bindings.buffers.size()),
-                           nullptr,
-                           0};
+    dvr_bindings all{};
+    all.uniforms = bindings.uniforms.data();
+    all.uniform_count = int(bindings.uniforms.size());
+    all.buffers = bindings.buffers.data();
+    all.buffer_count = int(bindings.buffers.size());
     if (info->init(state_, &all, features, &calls, missing) != 0)
       throw InputError("backend my_backend: the kernel " + file + " reads \"" + missing + "\", which nobody provides");
   }
@@ -81,7 +80,8 @@ class Session : public BackendSession {
     return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * sizeof(float);
   }
 
-  void render(const FrameJob& job, FrameResult& result) override {
+ protected:
+  void march(const FrameJob& job, FrameResult& result) override {
     const Bindings bindings(job);
     const int features = (job.rgb ? DVR_FEATURE_RGB : 0) | (job.full ? DVR_FEATURE_FULL : 0);
     const auto module = [&](const KernelUnit& u) { return u.folder + "/" + u.plugin + "." + isa_ + ".so"; };

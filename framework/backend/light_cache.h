@@ -1,0 +1,26 @@
+// Light volumes that a session has filled. What is the same as in an earlier frame is not computed again.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "framework/interfaces/backend.h"
+
+namespace dvrlab {
+
+class LightCache {
+ public:
+  using Fill = std::function<void(const StageJob&, LightVolume&)>;
+
+  /// The light volume of the job; stages that are missing are run by `fill`. Volumes that this job does not use are
+  /// forgotten. Times: one phase per stage, 0 for those that were not run.
+  LightVolume volume(const FrameJob& job, const Fill& fill, std::vector<PhaseTime>& times);
+
+ private:
+  struct Run;
+  std::map<std::string, LightVolume> kept_;  // by everything that decides the volume
+  std::vector<std::shared_ptr<const void>> sources_;  // the field's memory: while it lives, its address is its name
+};
+
+}  // namespace dvrlab

@@ -1,0 +1,143 @@
+// Random walks against closed forms, and the approximations of light against random walks.
+#include <gtest/gtest.h>
+
+#include "tests/truth/truth_test.h"
+
+namespace dvrlab::test {
+namespace {
+
+const Target cpu{"cpu", {{"type", "cpu"}}};
+
+/// A cube of constant extinction tau per voxel, `n` points a side; light from the right.
+json cube(double tau, int n, const json& pass) {
+  const double side = n - 1;
+  return {{"data",
+           {{"type", "procedural"}, {"field", "constant"}, {"size", {n, n, n}}, {"bounds", {{0, 0, 0}, {side, side, side}}}}},
+          {"optical_model", {{"type", "absorption_emission"}, {"extinction", {{0, tau}}}}},
+          {"estimator", {{"type", "direct"}}},
+          {"lights", {{{"type", "directional"}, {"direction", {1, 0, 0}}}}},
+          {"illumination", {pass}},
+          {"camera", {{"type", "orthographic"}, {"position", {0, -3, 0}}, {"up", {0, 0, 1}}, {"height", 2}}},
+          {"sampling", {{"type", "uniform"}, {"step", 0.5}, {"unit", "voxel"}}},
+          {"image", {{"size", {8, 8}}}}};
+}
+json walks(int samples, const json& more) { return patched({{"type", "path_traced"}, {"samples", samples}}, more); }
+
+/// Mean of (a - b) / error, its deviation from 0 in standard errors of the mean, and the root of its mean square.
+struct Pull {
+  double mean, spread;
+};
+template <class Truth>
+Pull pull(const LightVolume& v, Truth truth) {
+  double sum = 0, square = 0, count = 0;
+  for (std::size_t k = 0; k < v.values->size(); ++k) {
+    if (!((*v.error)[k] > 0)) continue;
+    const double z = (double((*v.values)[k]) - truth(k)) / double((*v.error)[k]);
+    sum += z;
+    square += z * z;
+    ++count;
+  }
+  return {sum / std::sqrt(count), std::sqrt(square / count)};
+}
+
+// Albedo 1 in light from all around: whatever is scattered stays, so every walk brings exactly the light of the surroundings.
+TEST(PathTraced, WhiteFurnace) {
+  for (const char* phase : {"isotropic", "henyey_greenstein"}) {
+    const json pass = walks(16, {{"environment", 1}, {"components", "scattered"}, {"phase", phase}});
+    json config = cube(0.4, 9, pass);
+    config["lights"][0]["color"] = {1, 1, 1};
+    config["lights"][0]["direction"] = {1, 0.3, 0.2};
+    // The light itself is taken away by the difference to the same walks without surroundings.
+    const LightVolume with = illuminate(config, cpu);
+    config["illumination"][0]["environment"] = 0;
+    const LightVolume without = illuminate(config, cpu);
+    for (std::size_t k = 0; k < with.values->size(); ++k)
+      ASSERT_NEAR((*with.values)[k] - (*without.values)[k], 1, 2e-5) << phase;
+    config["illumination"][0]["environment"] = 1;
+    config["illumination"][0]["albedo"] = 0.9;
+    EXPECT_LT((*illuminate(config, cpu).values)[364], (*with.values)[364] - 0.05) << "absorption is seen";
+  }
+}
+
+// Direct light: the transmittance, within the error that the result states.
+TEST(PathTraced, DirectLightIsTheTransmittance) {
+  const double tau = 0.15;
+  const int n = 11;
+  const LightVolume v = illuminate(cube(tau, n, walks(256, {{"components", "direct"}})), cpu);
+  const Pull p = pull(v, [&](std::size_t k) { return std::exp(-tau * (n - 1 - double(k % n))); });
+  std::printf("direct light: mean %.2f standard errors off, spread %.3f of the stated\n", p.mean, p.spread);
+  EXPECT_LT(std::abs(p.mean), 4);
+  EXPECT_NEAR(p.spread, 1, 0.1) << "the stated error is the error";
+  const Pull wrong = pull(v, [&](std::size_t k) { return std::exp(-1.05 * tau * (n - 1 - double(k % n))); });
+  EXPECT_GT(std::abs(wrong.mean), 6) << "negative control: 5 % more extinction";
+}
+
+// One scattering in a medium so thin that nothing is dimmed: albedo tau times the mean way out of the box.
+TEST(PathTraced, OneScatteringInAThinMedium) {
+  const double tau = 1e-3;
+  const int n = 9;
+  const LightVolume v = illuminate(cube(tau, n, walks(65536, {{"components", "scattered"}, {"orders", 1}, {"albedo", 0.5}})), cpu);
+  // The mean distance from the centre of a cube of side 1 to its surface, over all directions: 0.610687.
+  const std::size_t centre = (4 * 9 + 4) * 9 + 4;
+  const double expected = 0.5 * tau * 8 * 0.610687;
+  EXPECT_NEAR((*v.values)[centre], expected, 4 * (*v.error)[centre] + 0.01 * expected);
+  EXPECT_LT((*v.error)[centre], 0.1 * expected);
+}
+
+json cloud(const json& pass) {
+  json config = cube(0, 11, pass);
+  config["data"] = {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {13, 12, 11}}};
+  config["optical_model"] = {{"type", "absorption_emission"}, {"length_unit", "voxel"}, {"extinction", {{0.2, 0.05}, {0.5, 0.4}, {0.8, 0.05}}}};
+  config["lights"] = {{{"type", "directional"}, {"direction", {1, 0.4, 0.8}}}};
+  return config;
+}
+
+// `physical` with a radius beyond the volume is one scattering, up to its own midpoint rule and directions.
+TEST(PathTraced, PhysicalScatteringIsOneOrder) {
+  for (const char* phase : {"isotropic", "henyey_greenstein"}) {
+    json pass = {{"type", "local_piecewise"}, {"normalisation", "physical"}, {"albedo", 0.8},      {"radius", 24},
+                 {"samples", 96},             {"subdivisions", 3},           {"segment", 1},       {"segment_samples", 4},
+                 {"shadow_ratio", {1, 1, 1}}, {"weights", "solid_angle"},    {"phase", phase}};
+    const LightVolume fine = illuminate(cloud(pass), cpu);
+    const json random = walks(2048, {{"components", "scattered"}, {"orders", 1}, {"albedo", 0.8}, {"phase", phase}});
+    const LightVolume truth = illuminate(cloud(random), cpu);
+    double worst = 0, outside = 0;
+    for (std::size_t k = 0; k < truth.values->size(); ++k) {
+      const double z = std::abs(double((*truth.values)[k]) - double((*fine.values)[k])) / double((*truth.error)[k]);
+      worst = std::max(worst, z);
+      outside += z > 3 ? 1 : 0;
+    }
+    outside /= double(truth.values->size());
+    std::printf("%s: %.2f %% of the voxels beyond 3 standard errors (chance: 0.27 %%), worst %.1f\n", phase, 100 * outside, worst);
+    EXPECT_LT(outside, 0.02);
+    pass["albedo"] = 0.76;
+    const LightVolume less = illuminate(cloud(pass), cpu);
+    double off = 0;
+    for (std::size_t k = 0; k < truth.values->size(); ++k)
+      off += std::abs(double((*truth.values)[k]) - double((*less.values)[k])) > 3 * double((*truth.error)[k]) ? 1 : 0;
+    EXPECT_GT(off / double(truth.values->size()), 0.02) << "negative control: 5 % less albedo";
+  }
+}
+
+// More walks, a smaller error: by the square root of their number.
+TEST(PathTraced, TheErrorFallsWithTheRoot) {
+  const auto rms = [&](int samples) {
+    double square = 0;
+    const LightVolume v = illuminate(cloud(walks(samples, {{"albedo", 0.9}})), cpu);
+    for (const float e : *v.error) square += double(e) * double(e);
+    return std::sqrt(square);
+  };
+  EXPECT_NEAR(rms(64) / rms(1024), 4, 0.6);
+}
+
+TEST(PathTraced, SaysWhatItCannotDo) {
+  json config = cloud(walks(4, {}));
+  config["optical_model"] = {{"type", "data_space"}, {"dv_std", 0.2}, {"surface", {{"opacity", {{0, 0.5}}}, {"color", {{0, 1, 1, 1}}}}}};
+  EXPECT_THROW(scene_of(config), InputError);
+  config = cloud(walks(4, {}));
+  config["lights"] = json::array();
+  EXPECT_THROW(scene_of(config), InputError);
+}
+
+}  // namespace
+}  // namespace dvrlab::test
