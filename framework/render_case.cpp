@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iterator>
 
+#include "framework/config/expectation.h"
 #include "framework/image/averaged.h"
 #include "framework/interfaces/error.h"
 #include "framework/report/interrupt.h"
@@ -37,6 +38,20 @@ std::vector<PhaseTime> take_light(std::vector<PhaseTime>& times) {
   std::copy_if(times.begin(), times.end(), std::back_inserter(light), is_light);
   std::erase_if(times, is_light);
   return light;
+}
+
+/// What a case with a light volume has without any comparison (own_values()).
+Measure own_measure(const std::vector<std::pair<std::string, double>>& light, const std::vector<PhaseStatistics>& times) {
+  Measure m{own_reference, "light", {}, false};
+  for (const auto& [name, value] : light) m.values.emplace_back("light." + name, value);
+  double filling = 0, direct = 0, march = 0;
+  for (const PhaseStatistics& t : times) {
+    if (t.phase.starts_with("light ")) filling += t.median;
+    if (t.phase.starts_with("light ") && !t.phase.starts_with("light scatter")) direct += t.median;
+    if (t.phase == "march") march = t.median;
+  }
+  m.values.insert(m.values.end(), {{"time.light", filling}, {"time.direct_light", direct}, {"time.march", march}});
+  return m;
 }
 
 nlohmann::json scene_section(const Scene& s, double seconds) {
@@ -133,7 +148,7 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   }
   record.times = phase_statistics(repeats);
   record.counters = frame.counters;
-  record.light_error = frame.light_error;
+  if (!frame.light.empty()) record.measures.push_back(own_measure(frame.light, record.times));
   record.counters.table_fetches = record.counters.samples * static_cast<std::uint64_t>(scene.job.table_fetches);
   return averaged(std::move(frame.image), scene.rays_per_side);
 }

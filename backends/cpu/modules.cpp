@@ -74,8 +74,13 @@ void Bindings::add(const KernelUnit& unit) {
 }
 
 dvr_bindings Bindings::view() const {
-  return {uniforms_.data(), static_cast<int>(uniforms_.size()), buffers_.data(), static_cast<int>(buffers_.size()),
-          surfaces_.data(), static_cast<int>(surfaces_.size()), {}};
+  return {uniforms_.data(),
+          static_cast<int>(uniforms_.size()),
+          buffers_.data(),
+          static_cast<int>(buffers_.size()),
+          surfaces_.data(),
+          static_cast<int>(surfaces_.size()),
+          {}};
 }
 
 namespace {

@@ -60,7 +60,8 @@ const std::vector<VerbText>& verb_texts() {
        images,
        "compare two images (EXR files or case folders)",
        "Compares two float images of one size: how many numbers differ, by how much at most, and every metric that is "
-       "installed. The second image is the reference. Exit code 1 when they differ by more than the tolerance. The picture of "
+       "installed. The second image is the reference. Exit code 1 when they differ by more than the tolerance. The "
+       "picture of "
        "--difference is grey where the difference is not noticeable (below 1 in CIELUV) and coloured from there on.",
        "the same numbers",
        {{"dvrlab compare out/first_experiment/cases/sampling.step=1,backend=cpu "

@@ -53,7 +53,7 @@ StageJob stage_job(const FrameJob& job, const LightStage& stage) {
   s.rgb = work.rgb;
   s.precision = job.precision;
   s.rays = work.rays;
-  s.sampler = job.sampler;
+  s.sampler = work.sampler;
   s.kernel_folder = job.kernel_folder;
   s.gpu_buffer_limit = job.gpu_buffer_limit;
   s.long_loops = stage.long_loops;
@@ -66,7 +66,8 @@ StageJob stage_job(const FrameJob& job, const LightStage& stage) {
   s.stage.uniforms.insert(
       s.stage.uniforms.end(),
       {Uniform::integer("stage_nx", stage.grid.dims[0]), Uniform::integer("stage_ny", stage.grid.dims[1]),
-       Uniform::integer("stage_nz", stage.grid.dims[2]), Uniform::constant_integer("stage_channels", stage.grid.channels),
+       Uniform::integer("stage_nz", stage.grid.dims[2]),
+       Uniform::constant_integer("stage_channels", stage.grid.channels),
        Uniform::constant_integer("stage_light", stage.first_light),
        Uniform::vector("stage_lo", work.lo[0], work.lo[1], work.lo[2]),
        Uniform::vector("stage_step", step[0], step[1], step[2]),
@@ -113,9 +114,10 @@ struct LightCache::Run {
     Text common;
     common.add(job.light->rays.uniforms);
     for (const Buffer& b : job.light->rays.buffers) common.add(b, false);
-    common.add(job.sampler.plugin);
-    common.add(job.sampler.uniforms);
-    for (const Buffer& b : job.sampler.buffers) common.add(b, true);
+    const KernelUnit& sampler = job.light->sampler;
+    common.add(sampler.plugin);
+    common.add(sampler.uniforms);
+    for (const Buffer& b : sampler.buffers) common.add(b, true);
     common.add(job.precision);
     common.add(job.light->rgb);
     common.add(job.light->lo);
@@ -235,7 +237,8 @@ std::shared_ptr<std::vector<float>> combined_error(const LightWork& work,
   }
   if (square.empty()) return nullptr;
   auto error = std::make_shared<std::vector<float>>(points);
-  std::transform(square.begin(), square.end(), error->begin(), [](double x) { return static_cast<float>(std::sqrt(x)); });
+  std::transform(square.begin(), square.end(), error->begin(),
+                 [](double x) { return static_cast<float>(std::sqrt(x)); });
   return error;
 }
 
@@ -250,7 +253,7 @@ int light_planes(const LightWork& work) {
 LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vector<PhaseTime>& times) {
   const LightWork& work = *job.light;
   std::vector<std::shared_ptr<const void>> sources;
-  for (const Buffer& b : job.sampler.buffers) sources.push_back(b.data);
+  for (const Buffer& b : work.sampler.buffers) sources.push_back(b.data);
   if (sources != sources_) kept_.clear();
   sources_ = std::move(sources);
 

@@ -19,7 +19,7 @@ class LightCache {
 
  private:
   struct Run;
-  std::map<std::string, LightVolume> kept_;  // by everything that decides the volume
+  std::map<std::string, LightVolume> kept_;           // by everything that decides the volume
   std::vector<std::shared_ptr<const void>> sources_;  // the field's memory: while it lives, its address is its name
 };
 

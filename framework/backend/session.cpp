@@ -6,13 +6,39 @@
 #include "framework/interfaces/error.h"
 
 namespace dvrlab {
+namespace {
+
+std::vector<std::pair<std::string, double>> statistics_of(const LightVolume& volume) {
+  double sum = 0, square = 0, least = 1e300, most = -1e300;
+  for (const float x : *volume.values) {
+    sum += double(x);
+    square += double(x) * double(x);
+    least = std::min(least, double(x));
+    most = std::max(most, double(x));
+  }
+  const auto count = double(volume.values->size());
+  const double mean = sum / count;
+  std::vector<std::pair<std::string, double>> values = {
+      {"min", least}, {"max", most}, {"mean", mean}, {"deviation", std::sqrt(std::max(square / count - mean * mean, 0.0))}};
+  if (volume.error == nullptr) return values;
+  square = most = 0;
+  for (const float e : *volume.error) {
+    square += double(e) * double(e);
+    most = std::max(most, double(e));
+  }
+  values.insert(values.end(), {{"error_rms", std::sqrt(square / double(volume.error->size()))}, {"error_max", most}});
+  return values;
+}
+
+}  // namespace
 
 BackendSession::BackendSession() = default;
 BackendSession::~BackendSession() = default;
 
 LightVolume BackendSession::illuminate(const FrameJob& job, std::vector<PhaseTime>& times) {
   if (light_ == nullptr) light_ = std::make_unique<LightCache>();
-  return light_->volume(job, [&](const StageJob& s, LightVolume& v) { fill(s, v); }, times);
+  return light_->volume(
+      job, [&](const StageJob& s, LightVolume& v) { fill(s, v); }, times);
 }
 
 FrameJob BackendSession::lit(const FrameJob& job, const LightVolume& volume) {
@@ -35,14 +61,7 @@ void BackendSession::render(const FrameJob& job, FrameResult& result) {
   std::vector<PhaseTime> times;
   const LightVolume volume = illuminate(job, times);
   march(lit(job, volume), result);
-  if (volume.error != nullptr) {
-    double square = 0, largest = 0;
-    for (const float e : *volume.error) {
-      square += double(e) * double(e);
-      largest = std::max(largest, double(e));
-    }
-    result.light_error = {{"rms", std::sqrt(square / double(volume.error->size()))}, {"max", largest}};
-  }
+  result.light = statistics_of(volume);
   result.times.insert(result.times.begin(), times.begin(), times.end());
 }
 

@@ -92,7 +92,7 @@ void check_references(const ConfigTree& document, Problems& problems) {
   if (!references->is_object()) return bad("reference", "must be a section of name -> patch");
   for (const auto& [name, patch] : references->items()) {
     const std::string path = child_path("reference", name);
-    if (name == "variant" || name.empty() || name != file_safe(name))
+    if (name == "variant" || name == own_reference || name.empty() || name != file_safe(name))
       bad(path, "is no name for a reference; letters, digits and _ are, except 'variant'");
     if (!patch.is_object()) {
       bad(path, "must be a section: a patch on the case");

@@ -108,8 +108,12 @@ void check_one(const Experiment& experiment, const Expectation& e, const std::st
     return;
   }
   if (varied) names.references.emplace_back("variant");
-  name_in("metric", metric_of(e), names.metrics, where, problems);
-  name_in("reference", e.against, names.references, where, problems);
+  if (e.against == own_reference) {
+    name_in("value of the case's own", e.metric, own_values(), where, problems);
+  } else {
+    name_in("metric", metric_of(e), names.metrics, where, problems);
+    name_in("reference", e.against, names.references, where, problems);
+  }
   if (e.over == Expectation::Over::views && !viewed)
     problems.add(where + "there are no views: the camera of no case that is meant is an orbit whose view is null");
   if (e.over == Expectation::Over::views && e.series.key == view_key)

@@ -86,6 +86,13 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
 
 }  // namespace
 
+const std::vector<std::string>& own_values() {
+  static const std::vector<std::string> names = {"light.min",       "light.max",       "light.mean",  "light.deviation",
+                                                 "light.error_rms", "light.error_max", "time.light", "time.direct_light",
+                                                 "time.march"};
+  return names;
+}
+
 std::vector<Expectation> read_expectations(const ConfigTree& tree, Problems& problems) {
   std::vector<Expectation> expectations;
   const ConfigJson* list = tree.find("expect");

@@ -12,6 +12,11 @@
 
 namespace dvrlab {
 
+/// What `against` says for values that a case has without any comparison: of its light volume, and times.
+inline constexpr const char* own_reference = "own";
+/// "light.min", ...: cases whose passes fill a light volume have them.
+const std::vector<std::string>& own_values();
+
 struct Expectation {
   std::string metric;                                         // "psnr", "psnr.r"
   std::string against;                                        // a reference's name, or "variant"

@@ -29,7 +29,7 @@ struct FrameJob {
   KernelUnit frame;  // camera, sampling, lights, medium; kernel texts of framework/kernel
   KernelUnit sampler;
   KernelUnit estimator;
-  std::string kernel_folder;  // framework/kernel
+  std::string kernel_folder;               // framework/kernel
   std::shared_ptr<const LightWork> light;  // nothing: no pass fills a light volume
   /// Fetches of four numbers from transfer function and estimator tables per segment, at the most; a segment that the
   /// estimator divides counts as one part.
@@ -80,8 +80,9 @@ struct FrameResult {
   FrameImage image;
   FrameCounters counters;
   std::vector<PhaseTime> times;
-  /// Of the light volume, where its pass knows: root of the mean square of the standard error, and the largest.
-  std::vector<std::pair<std::string, double>> light_error;
+  /// Of the light volume, over its points: "min", "max", "mean", "deviation"; where its pass knows a standard error, the root
+  /// of its mean square and the largest: "error_rms", "error_max". Empty without a light volume.
+  std::vector<std::pair<std::string, double>> light;
 };
 
 /// What runs the frames, for the result file.
@@ -124,8 +125,8 @@ class BackendSession {
   std::vector<ProbeSegment> probe(const FrameJob& job, int x, int y);
 
  protected:
-  /// Uploads and compiles what changed since the last call, renders, blocks until done. The job's light volume is one of
-  /// its buffers.
+  /// Uploads and compiles what changed since the last call, renders, blocks until done. The job's light volume is one
+  /// of its buffers.
   virtual void march(const FrameJob& job, FrameResult& result) = 0;
   virtual std::vector<ProbeSegment> march_ray(const FrameJob& job, int x, int y);
   /// Fills `volume`, whose grid and memory are there. Backends without it throw NotSupported.

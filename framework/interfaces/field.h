@@ -100,6 +100,8 @@ class SamplerPlugin : public Plugin {
   virtual std::uint64_t bytes_needed(const Field& /*field*/) const { return 0; }
   /// Uniforms and buffers of the kernel for this field. `folder` is the plugin's folder.
   virtual KernelUnit bind(const Field& field) const = 0;
+  /// The same for a grid of `dims` points over the field's box, where the sampler makes one.
+  virtual KernelUnit bind_to(const Field& field, const std::array<int, 3>& /*dims*/) const { return bind(field); }
 };
 
 /// The path that a config names: relative to `base_folder`, "${NAME}" from the environment.

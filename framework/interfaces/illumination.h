@@ -40,11 +40,11 @@ struct LocalShading {
 
 /// What a pass of light volumes is told beside its own parameters.
 struct LightSetting {
-  std::array<int, 3> dims;   // of the light volume: the grid of the data, where they have one
-  Affine to_world;           // sampler coordinates -> world relative to the box centre
-  double voxel;              // smallest spacing of that grid, world units
-  std::vector<Light> light;  // directional and point lights; at least one
-  bool rgb;                  // extinction differs between channels: one light per volume, a channel per colour
+  std::array<int, 3> dims;    // of the light volume: the grid of the data, where they have one
+  Affine to_world;            // sampler coordinates -> world relative to the box centre
+  double voxel;               // smallest spacing of that grid, world units
+  std::vector<Light> light;   // directional and point lights; at least one
+  bool rgb;                   // extinction differs between channels: one light per volume, a channel per colour
   double value_lo, value_hi;  // values of the first and the last entry of light_tau, in the transfer functions' unit
   int entries;                // of light_tau
   Vector3 largest_tau;        // per channel and world length

@@ -14,9 +14,9 @@ struct LightDirection {
   double weight;  // sum 1
 };
 
-/// The centres of the solid's faces (4, 8, 20), each cut into four `subdivisions` times, turned so that the first direction is
-/// `toward` (unit length). The others follow so that each is as far from those before it as can be: any first k of them
-/// spread over the sphere. Weights are equal, or the solid angles of the faces.
+/// The centres of the solid's faces (4, 8, 20), each cut into four `subdivisions` times, turned so that the first
+/// direction is `toward` (unit length). The others follow so that each is as far from those before it as can be: any
+/// first k of them spread over the sphere. Weights are equal, or the solid angles of the faces.
 std::vector<LightDirection> light_directions(Solid solid, int subdivisions, bool by_solid_angle, const Vector3& toward);
 
 }  // namespace dvrlab

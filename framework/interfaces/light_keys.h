@@ -10,33 +10,85 @@
 namespace dvrlab {
 
 inline constexpr Parameter light_bias_key{
-    "bias", ParameterType::number, "", "0", "[0,1]",
-    "I_bias, light that is always there: bias + (1 - bias) x (Hernell et al. 2008, equation 12).", Affects::pixels, "", "0.3"};
+    "bias",
+    ParameterType::number,
+    "",
+    "0",
+    "[0,1]",
+    "I_bias, light that is always there: bias + (1 - bias) x (Hernell et al. 2008, equation 12).",
+    Affects::pixels,
+    "",
+    "0.3"};
 inline constexpr Parameter light_blend_key{
-    "blend", ParameterType::number, "", "1", "[0,1]",
-    "How much of the light volume acts: 1 - blend + blend x, a factor of m, k and b.", Affects::pixels, "", "0.5"};
-inline constexpr Parameter light_opacity_scale_key{
-    "light_opacity_scale", ParameterType::number, "", "1", "[0,inf)",
-    "Extinction that light rays see, relative to the medium's (opacity correction for light rays).", Affects::pixels, "",
+    "blend",
+    ParameterType::number,
+    "",
+    "1",
+    "[0,1]",
+    "How much of the light volume acts: 1 - blend + blend x, a factor of m, k and b.",
+    Affects::pixels,
+    "",
     "0.5"};
-inline constexpr Parameter light_resolution_key{
-    "resolution", ParameterType::integer, "", "128", "[2,2048]",
-    "Points of the light volume along the longest side of data that have no grid of their own; a voxel is its spacing there.",
-    Affects::pixels, R"({"data":{"evaluate":"formula"}})", "24"};
-inline constexpr Parameter light_radius_key{
-    "radius", ParameterType::number, "voxel", "16", "(0,inf)",
-    "Radius of the sphere that light is gathered from.", Affects::pixels, "", "5"};
+inline constexpr Parameter light_opacity_scale_key{
+    "light_opacity_scale",
+    ParameterType::number,
+    "",
+    "1",
+    "[0,inf)",
+    "Extinction that light rays see, relative to the medium's (opacity correction for light rays).",
+    Affects::pixels,
+    "",
+    "0.5"};
+inline constexpr Parameter light_resolution_key{"resolution",
+                                                ParameterType::integer,
+                                                "",
+                                                "128",
+                                                "[2,2048]",
+                                                "Points of the light volume along the longest side of data that have "
+                                                "no grid of their own; a voxel is its spacing there.",
+                                                Affects::pixels,
+                                                R"({"data":{"evaluate":"formula"}})",
+                                                "24"};
+inline constexpr Parameter light_radius_key{"radius",
+                                            ParameterType::number,
+                                            "voxel",
+                                            "16",
+                                            "(0,inf)",
+                                            "Radius of the sphere that light is gathered from.",
+                                            Affects::pixels,
+                                            "",
+                                            "5"};
 inline constexpr Parameter light_samples_key{
     "samples", ParameterType::integer, "", "8", "[1,1024]", "Samples along each direction.", Affects::pixels, "", "3"};
-inline constexpr Parameter light_solid_key{
-    "solid", ParameterType::choice, "", "\"octahedron\"", "tetrahedron|octahedron|icosahedron",
-    "Directions are the centres of its faces: 4, 8 or 20.", Affects::pixels, "", "\"icosahedron\""};
+inline constexpr Parameter light_solid_key{"solid",
+                                           ParameterType::choice,
+                                           "",
+                                           "\"octahedron\"",
+                                           "tetrahedron|octahedron|icosahedron",
+                                           "Directions are the centres of its faces: 4, 8 or 20.",
+                                           Affects::pixels,
+                                           "",
+                                           "\"icosahedron\""};
 inline constexpr Parameter light_subdivisions_key{
-    "subdivisions", ParameterType::integer, "", "1", "[0,3]",
-    "How often each face is cut into four: 32 directions are the octahedron once.", Affects::pixels, "", "0"};
+    "subdivisions",
+    ParameterType::integer,
+    "",
+    "1",
+    "[0,3]",
+    "How often each face is cut into four: 32 directions are the octahedron once.",
+    Affects::pixels,
+    "",
+    "0"};
 inline constexpr Parameter light_weights_key{
-    "weights", ParameterType::choice, "", "\"equal\"", "equal|solid_angle",
-    "Weights of the directions: all alike, or the solid angles of their faces.", Affects::pixels, "", "\"solid_angle\""};
+    "weights",
+    ParameterType::choice,
+    "",
+    "\"equal\"",
+    "equal|solid_angle",
+    "Weights of the directions: all alike, or the solid angles of their faces.",
+    Affects::pixels,
+    "",
+    "\"solid_angle\""};
 
 inline std::vector<LightDirection> light_directions(const ParameterSet& p, const Vector3& toward) {
   return light_directions(static_cast<Solid>(p.choice_index("solid")), static_cast<int>(p.integer("subdivisions")),

@@ -21,20 +21,22 @@ struct LightGrid {
 };
 
 /// The volume of an earlier stage as a buffer of this one's kernel. A negative stage: there is none, the kernel does
-/// not read it. `placed`: the kernel knows its grid by <buffer>_nx, _ny, _nz, _lo, _scale (sampler coordinates to grid).
+/// not read it. `placed`: the kernel knows its grid by <buffer>_nx, _ny, _nz, _lo, _scale (sampler coordinates to
+/// grid).
 struct StageRead {
   std::string buffer;
   int stage = -1;
   bool placed = false;
 };
 
-/// One voxel kernel: <folder>/<kernel>.kernel defines stage_voxel (framework/kernel/cpu/stage.module.cpp has the contract).
+/// One voxel kernel: <folder>/<kernel>.kernel defines stage_voxel (framework/kernel/cpu/stage.module.cpp has the
+/// contract).
 struct LightStage {
   std::string kernel;
-  std::string label;    // what the result's timings call it: "segment"
-  std::string folder;   // the plugin's; filled in by the framework
-  LightGrid grid;       // channels: one per light, or with RGB extinction one per colour of one light
-  int first_light = 0;  // of LightSetting::light
+  std::string label;        // what the result's timings call it: "segment"
+  std::string folder;       // the plugin's; filled in by the framework
+  LightGrid grid;           // channels: one per light, or with RGB extinction one per colour of one light
+  int first_light = 0;      // of LightSetting::light
   bool long_loops = false;  // a voxel may take more rounds than software GPUs grant an invocation
   std::vector<Uniform> uniforms;
   std::vector<Buffer> buffers;
@@ -71,6 +73,7 @@ struct LightVolume {
 struct LightWork {
   LightPlan plan;
   KernelUnit rays;                           // light_*: what all stages read (framework/kernel/light_ray.kernel)
+  KernelUnit sampler;                        // the field at positions; of the frame, unless that one walks
   std::array<double, 3> lo{}, hi{};          // the box in sampler coordinates
   std::array<int, 3> dims{2, 2, 2};          // of the light volume
   bool rgb = false;                          // extinction differs between channels

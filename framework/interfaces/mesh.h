@@ -56,6 +56,8 @@ struct MeshField : Field {
   double longest = 0;       // distance of two corners of a cell: no ray is longer in one
   double tolerance = 1e-3;  // of values in cells that are not linear, as a part of the field's range
   mutable std::shared_ptr<const Tetrahedra> tetrahedra;  // made at the first use
+  mutable std::shared_ptr<const KernelUnit> resampled;   // likewise: on a grid, for light volumes
+  mutable std::array<int, 3> resampled_dims{};
   std::uint64_t cells() const { return shape.size(); }
   std::span<const std::uint32_t> nodes_of(std::uint64_t cell) const {
     return {node.data() + first[cell], node.data() + first[cell + 1]};

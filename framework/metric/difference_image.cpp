@@ -17,7 +17,8 @@ Color color_of(double e) {
     double at;
     Color color;
   };
-  static const std::array<Stop, 4> stops{{{1, {0.1f, 0.2f, 1}}, {3, {0, 0.8f, 0.4f}}, {6, {1, 0.9f, 0}}, {12, {1, 0, 0}}}};
+  static const std::array<Stop, 4> stops{
+      {{1, {0.1f, 0.2f, 1}}, {3, {0, 0.8f, 0.4f}}, {6, {1, 0.9f, 0}}, {12, {1, 0, 0}}}};
   for (std::size_t k = 1; k < stops.size(); ++k) {
     if (e >= stops[k].at) continue;
     const auto w = static_cast<float>((e - stops[k - 1].at) / (stops[k].at - stops[k - 1].at));
@@ -34,7 +35,8 @@ void draw_scale(FrameImage& image, int first_row) {
     for (int x = 0; x < image.width; ++x) {
       Color c = color_of(most * (x + 0.5) / image.width);
       for (const double mark : {1.0, 3.0, 6.0, 12.0})
-        if (x == static_cast<int>(mark / most * image.width) && y - first_row < (image.height - first_row) / 2) c = {1, 1, 1};
+        if (x == static_cast<int>(mark / most * image.width) && y - first_row < (image.height - first_row) / 2)
+          c = {1, 1, 1};
       if (y == first_row) c = {0, 0, 0};
       std::copy(c.begin(), c.end(), image.color.begin() + 3 * (std::ptrdiff_t(y) * image.width + x));
     }

@@ -56,7 +56,6 @@ struct CaseRecord {
   DeviceInfo device;
   std::vector<std::pair<std::string, double>> memory;  // part -> bytes, as stated before they were allocated
   FrameCounters counters;
-  std::vector<std::pair<std::string, double>> light_error;  // FrameResult::light_error
   std::vector<PhaseStatistics> times;
   std::vector<Measure> measures;
   std::optional<VariantCheck> variant;

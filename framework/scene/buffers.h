@@ -17,6 +17,14 @@ Buffer make_buffer(std::string name, Element element, std::vector<T> values, std
   return {std::move(name), element, std::shared_ptr<const void>(owner, owner->data()), count, nullptr};
 }
 
+/// Numbers of f32 for kernels in fp32 and, the same, in fp64.
+inline Buffer real_buffer(std::string name, const std::vector<float>& values) {
+  const auto owner = std::make_shared<std::vector<double>>(values.begin(), values.end());
+  Buffer buffer = make_buffer(std::move(name), Element::f32, values, values.size());
+  buffer.data64 = {owner, owner->data()};
+  return buffer;
+}
+
 /// Groups of four numbers for kernels in fp32 and in fp64; both lists have one length. An empty table has no
 /// binding on a GPU; the cpu finds one entry of zeros.
 inline Buffer vec4_buffer(std::string name, std::vector<float> rounded, std::vector<double> values) {

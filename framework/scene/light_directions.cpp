@@ -31,7 +31,9 @@ std::vector<Face> faces_of(Solid solid) {
   std::vector<Vector3> corner;
   for (const double s : {1.0, -1.0})
     for (const double t : {phi, -phi}) corner.insert(corner.end(), {{0, s, t}, {s, t, 0}, {t, 0, s}});
-  const auto near = [&](std::size_t i, std::size_t j) { return std::abs(length(minus(corner[i], corner[j])) - 2) < 1e-9; };
+  const auto near = [&](std::size_t i, std::size_t j) {
+    return std::abs(length(minus(corner[i], corner[j])) - 2) < 1e-9;
+  };
   for (std::size_t i = 0; i < corner.size(); ++i)
     for (std::size_t j = i + 1; j < corner.size(); ++j)
       for (std::size_t k = j + 1; k < corner.size(); ++k)
@@ -42,7 +44,8 @@ std::vector<Face> faces_of(Solid solid) {
 std::vector<Face> divided(const std::vector<Face>& faces) {
   std::vector<Face> parts;
   for (const Face& f : faces) {
-    const Vector3 ab = normalized(plus(f[0], f[1])), bc = normalized(plus(f[1], f[2])), ca = normalized(plus(f[2], f[0]));
+    const Vector3 ab = normalized(plus(f[0], f[1])), bc = normalized(plus(f[1], f[2])),
+                  ca = normalized(plus(f[2], f[0]));
     parts.insert(parts.end(), {{f[0], ab, ca}, {f[1], bc, ab}, {f[2], ca, bc}, {ab, bc, ca}});
   }
   return parts;
@@ -82,7 +85,8 @@ void spread(std::vector<LightDirection>& d) {
 
 }  // namespace
 
-std::vector<LightDirection> light_directions(Solid solid, int subdivisions, bool by_solid_angle, const Vector3& toward) {
+std::vector<LightDirection> light_directions(Solid solid, int subdivisions, bool by_solid_angle,
+                                             const Vector3& toward) {
   std::vector<Face> faces = faces_of(solid);
   for (Face& f : faces)
     for (Vector3& corner : f) corner = normalized(corner);

@@ -76,11 +76,12 @@ void add_light_extinction(const Medium& medium, const MediumTableOptions& option
     for (const double v : r.v0 < r.v1 ? std::vector{r.v0, r.v1} : std::vector{r.v0})
       dirac.insert(dirac.end(), {v, opaque_depth, opaque_depth, opaque_depth});
   const bool surfaces = medium.terms().has(Term::tau_s) || !dirac.empty();
-  unit.uniforms.insert(unit.uniforms.end(), {Uniform::real("light_tau_lo", options.lo),
-                                             Uniform::real("light_tau_scale", (options.entries - 1) / (options.hi - options.lo)),
-                                             Uniform::integer("light_tau_entries", options.entries),
-                                             Uniform::constant_integer("light_surfaces", surfaces ? 1 : 0),
-                                             Uniform::constant_integer("light_diracs", int(dirac.size() / 4))});
+  unit.uniforms.insert(unit.uniforms.end(),
+                       {Uniform::real("light_tau_lo", options.lo),
+                        Uniform::real("light_tau_scale", (options.entries - 1) / (options.hi - options.lo)),
+                        Uniform::integer("light_tau_entries", options.entries),
+                        Uniform::constant_integer("light_surfaces", surfaces ? 1 : 0),
+                        Uniform::constant_integer("light_diracs", int(dirac.size() / 4))});
   unit.buffers.push_back(reals("light_tau", std::move(tau)));
   unit.buffers.push_back(reals("light_surface", std::move(surface)));
   unit.buffers.push_back(vec4_buffer("light_dirac", std::move(dirac)));

@@ -77,17 +77,28 @@ void add_sources(const LightSetting& s, const Field& field, KernelUnit& unit) {
     const bool point = light.type == Light::Type::point;
     if (point) points |= 1 << l;
     const Vector3 place = point ? inverse.point(light.position) : s.sampler_direction(light.position);
-    source.insert(source.end(), {place[0], place[1], place[2], 0, light.position[0], light.position[1], light.position[2], 0});
+    source.insert(source.end(),
+                  {place[0], place[1], place[2], 0, light.position[0], light.position[1], light.position[2], 0});
   }
   const auto& m = s.to_world.m;
   const auto& i = inverse.m;
-  unit.uniforms.insert(unit.uniforms.end(),
-                       {vec("light_lo", field.lo), vec("light_hi", field.hi),
-                        Uniform::vector("light_world_x", m[0], m[1], m[2]), Uniform::vector("light_world_y", m[3], m[4], m[5]),
-                        Uniform::vector("light_world_z", m[6], m[7], m[8]), Uniform::vector("light_sampler_x", i[0], i[1], i[2]),
-                        Uniform::vector("light_sampler_y", i[3], i[4], i[5]), Uniform::vector("light_sampler_z", i[6], i[7], i[8]),
-                        Uniform::integer("light_points", points)});
+  unit.uniforms.insert(
+      unit.uniforms.end(),
+      {vec("light_lo", field.lo), vec("light_hi", field.hi), Uniform::vector("light_world_x", m[0], m[1], m[2]),
+       Uniform::vector("light_world_y", m[3], m[4], m[5]), Uniform::vector("light_world_z", m[6], m[7], m[8]),
+       Uniform::vector("light_sampler_x", i[0], i[1], i[2]), Uniform::vector("light_sampler_y", i[3], i[4], i[5]),
+       Uniform::vector("light_sampler_z", i[6], i[7], i[8]), Uniform::integer("light_points", points)});
   unit.buffers.push_back(vec4_buffer("light_source", std::move(source)));
+}
+
+/// How many of the medium's bins before one may contribute, and two more entries, as medium_shaded_sum has them.
+std::vector<int> lit_sums(const OccupiedBins& occupied, const MediumTableOptions& o) {
+  std::vector<int> sum{0};
+  const auto value = [&](int entry) { return o.lo + (o.hi - o.lo) * entry / (o.entries - 1); };
+  for (int b = 0; b + 1 < o.entries; ++b) sum.push_back(sum.back() + (occupied.empty(value(b), value(b + 1)) ? 0 : 1));
+  sum.push_back(sum.back());
+  sum.push_back(sum.back());
+  return sum;
 }
 
 }  // namespace
@@ -107,9 +118,10 @@ std::uint64_t LightWork::bytes() const {
 
 bool fills_light_volume(const ResolvedCase& c, const Registry& registry) { return volume_pass(c, registry) != nullptr; }
 
-std::shared_ptr<const LightWork> light_work(const ResolvedCase& c, const Registry& registry, const Field& field,
+std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& registry, const Field& field,
                                             const Medium& medium, const MediumTableOptions& options,
-                                            const LocalShading& shading, double value_per_stored, double value_of_zero) {
+                                            const LocalShading& shading, double value_per_stored,
+                                            double value_of_zero) {
   const Section* pass = volume_pass(c, registry);
   if (pass == nullptr) return nullptr;
   const auto& plugin = registry.get<IlluminationPlugin>("illumination", pass->type);
@@ -151,19 +163,21 @@ std::shared_ptr<const LightWork> light_work(const ResolvedCase& c, const Registr
   return work;
 }
 
-void add_light_volume(const LightWork* work, const std::vector<int>& sums, KernelUnit& unit) {
+void add_light_volume(const LightWork* work, const OccupiedBins& occupied, const MediumTableOptions& options,
+                      KernelUnit& unit) {
   const auto at = [&](std::size_t a) { return work != nullptr ? work->dims[a] : 2; };
   Vector3 lo{0, 0, 0}, scale{1, 1, 1};
   for (std::size_t a = 0; work != nullptr && a < 3; ++a) {
     lo[a] = work->lo[a];
     scale[a] = (work->dims[a] - 1) / (work->hi[a] - work->lo[a]);
   }
-  unit.uniforms.insert(unit.uniforms.end(),
-                       {Uniform::constant_integer("frame_lit", work != nullptr ? light_planes(*work) : 0),
-                        Uniform::integer("frame_light_nx", at(0)), Uniform::integer("frame_light_ny", at(1)),
-                        Uniform::integer("frame_light_nz", at(2)), vec("frame_light_lo", lo),
-                        vec("frame_light_scale", scale)});
-  std::vector<int> kept = work != nullptr ? sums : std::vector<int>{0};
+  unit.uniforms.insert(
+      unit.uniforms.end(),
+      {Uniform::constant_integer("frame_lit", work != nullptr ? light_planes(*work) : 0),
+       Uniform::integer("frame_light_nx", at(0)), Uniform::integer("frame_light_ny", at(1)),
+       Uniform::integer("frame_light_nz", at(2)), vec("frame_light_lo", lo), vec("frame_light_scale", scale)});
+  std::vector<int> kept{0};
+  if (work != nullptr) kept = lit_sums(occupied, options);
   const std::uint64_t count = work != nullptr ? kept.size() : 0;
   unit.buffers.push_back(make_buffer("medium_lit_sum", Element::i32, std::move(kept), count));
   // Filled by the session (BackendSession::render).

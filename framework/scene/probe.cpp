@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-
 namespace dvrlab {
 
 std::vector<ProbeSegment> probe_ray(const Scene& scene, const Registry& registry, int x, int y) {

@@ -34,11 +34,27 @@ double longest_segment(const ResolvedCase& c, const Field& field, double step) {
   return samples_faces(c) ? std::min(longest, step) : longest;
 }
 
-std::shared_ptr<const LightWork> light_work_of(const ResolvedCase& c, const Registry& registry, const Field& field,
+std::shared_ptr<LightWork> light_work_of(const ResolvedCase& c, const Registry& registry, const Field& field,
                                                const Medium& medium, const MediumTableOptions& options,
                                                const LocalShading& shading) {
   const TfDomain domain = tf_domain(c.optical_model.parameters, field);
   return light_work(c, registry, field, medium, options, shading, domain.slope(field), domain.intercept(field));
+}
+
+/// What light rays ask at positions: the frame's own sampler, or a grid that stands in for one that walks. Of one mesh and
+/// grid it is made once.
+KernelUnit light_sampler(const Registry& registry, const Field& field, const KernelUnit& own, const std::array<int, 3>& dims) {
+  if (!walks(own)) return own;
+  const auto* mesh = dynamic_cast<const MeshField*>(&field);
+  if (mesh == nullptr) return own;
+  if (mesh->resampled == nullptr || mesh->resampled_dims != dims) {
+    KernelUnit unit = registry.get<SamplerPlugin>("sampler", "resampled").bind_to(field, dims);
+    unit.plugin = "resampled";
+    unit.folder = registry.find("sampler", "resampled").folder;
+    mesh->resampled = std::make_shared<KernelUnit>(std::move(unit));
+    mesh->resampled_dims = dims;
+  }
+  return *mesh->resampled;
 }
 
 /// The sampler that reads the field: the config's, else the one that the data names.
@@ -162,8 +178,6 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const MediumLayout layout(before_opaque, options);
   const bool barycentre = declared.barycentre && job.full;
   add_shading(shading, std::abs(field->slope), job.frame);
-  if (shading.light_volume) job.light = light_work_of(c, registry, *field, scene.medium, options, shading);
-  add_light_volume(job.light.get(), OccupiedBins(scene.medium, options, 0).sums(), job.frame);
   const bool gradient = job.full && shaded && shading.mode == LocalShading::Mode::blinn_phong;
   job.frame.uniforms.insert(
       job.frame.uniforms.end(),
@@ -182,6 +196,12 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   job.sampler.folder = registry.find("sampler", sampler).folder;
   job.frame.uniforms.push_back(
       Uniform::constant_integer("frame_walks", walks(job.sampler) || samples_cells(c) ? 1 : 0));
+  if (shading.light_volume) {
+    const auto work = light_work_of(c, registry, *field, scene.medium, options, shading);
+    work->sampler = light_sampler(registry, *field, job.sampler, work->dims);
+    job.light = work;
+  }
+  add_light_volume(job.light.get(), occupied, options, job.frame);
   if (samples_cells(c))
     add_cells(c, *field, registry.get<SamplerPlugin>("sampler", sampler).along_ray(), sampler,
               OccupiedBins(scene.medium, options, 0), job.frame);
@@ -208,11 +228,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
     bins = bin_groups(before_opaque, layout, options.lo, options.hi, declared.mean_bins, barycentre);
   estimator.shape_bins(c.estimator.parameters, scene.step, bins);
   add_means(bins, barycentre, job.precision == Precision::fp64, job.frame);
-  estimator.prepare(
-      c.estimator.parameters,
-      {&seen, options.lo, options.hi, scene.step, job.full, options.lit_particles,
-       job.precision, c.estimator.folder, walks(job.sampler) ? longest_segment(c, *field, scene.step) : 0.0, &bins},
-      job.estimator);
+  estimator.prepare(c.estimator.parameters,
+                    {&seen, options.lo, options.hi, scene.step, job.full, options.lit_particles, job.precision,
+                     c.estimator.folder, walks(job.sampler) ? longest_segment(c, *field, scene.step) : 0.0, &bins},
+                    job.estimator);
   // A mean is six fetches per group; the bin of the next opaque value is one.
   job.table_fetches = declared.points * fetches_of_point(before_opaque, options) + declared.means * 6 * layout.count() +
                       (scene.medium.opaque.empty() ? 0 : 1) + job.estimator.fetches;

@@ -48,11 +48,16 @@ constexpr Part frame_parts[] = {
     {From::framework, "march.glsl"},
 };
 constexpr Part stage_parts[] = {
-    {From::framework, "compat/glsl.glsl"}, {From::generated, ""},
-    {From::framework, "math.kernel"},      {From::framework, "algebra.kernel"},
-    {From::framework, "volume.kernel"},    {From::sampler, ""},
-    {From::framework, "random.kernel"},    {From::framework, "light_ray.kernel"},
-    {From::stage, ""},                     {From::framework, "stage.glsl"},
+    {From::framework, "compat/glsl.glsl"},
+    {From::generated, ""},
+    {From::framework, "math.kernel"},
+    {From::framework, "algebra.kernel"},
+    {From::framework, "volume.kernel"},
+    {From::sampler, ""},
+    {From::framework, "random.kernel"},
+    {From::framework, "light_ray.kernel"},
+    {From::stage, ""},
+    {From::framework, "stage.glsl"},
 };
 
 /// What the two kinds of shader share, and what tells them apart.
@@ -142,9 +147,8 @@ ComposedShader compose(const Composition& job, const ShaderLimits& limits) {
   if (limits.target == ShaderTarget::opengl) binding = 0;
   shader.band = layout_block("dvr_band", band, limits.uniform_range);
   shader.band.binding = binding++;
-  std::string generated =
-      std::string("layout(std430, binding = 0) writeonly buffer dvr_output { ") + job.output + " dvr_out[]; };\n" +
-      block_text(shader.band, band);
+  std::string generated = std::string("layout(std430, binding = 0) writeonly buffer dvr_output { ") + job.output +
+                          " dvr_out[]; };\n" + block_text(shader.band, band);
   for (const auto& [role, unit] : job.units) {
     UniformBlock block = layout_block(std::string("dvr_") + role, unit->uniforms, limits.uniform_range);
     block.binding = binding;

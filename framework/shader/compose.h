@@ -11,7 +11,8 @@ namespace dvrlab {
 /// bytes), std::logic_error when two units use one name, std::runtime_error when a text cannot be read.
 ComposedShader compose_shader(const FrameJob& job, const ShaderLimits& limits);
 
-/// The shader of one stage of a light volume, likewise. Its output is `stage_channels` rows of the volume's width per row.
+/// The shader of one stage of a light volume, likewise. Its output is `stage_channels` rows of the volume's width per
+/// row.
 ComposedShader compose_stage(const StageJob& job, const ShaderLimits& limits);
 
 }  // namespace dvrlab

@@ -205,12 +205,16 @@ void GpuSession::fill(const StageJob& job, LightVolume& volume) {
   constexpr int group = ComposedShader::workgroup;
   constexpr std::uint64_t most_groups = 65535;  // in y: what every device dispatches
   const ShaderLimits limits = device_->limits();
-  const auto largest = int(std::min({limits.buffer_range / row_bytes, most_groups * group, std::uint64_t(height) + group - 1})) / group * group;
+  const auto largest =
+      int(std::min({limits.buffer_range / row_bytes, most_groups * group, std::uint64_t(height) + group - 1})) / group *
+      group;
   if (largest < group)
-    throw NotSupported("a light volume " + std::to_string(width) + " points wide does not fit the device's storage buffers of " +
+    throw NotSupported("a light volume " + std::to_string(width) +
+                       " points wide does not fit the device's storage buffers of " +
                        std::to_string(limits.buffer_range) + " bytes");
   if (job.long_loops && limits.runs_both_branches)
-    throw NotSupported("stage " + job.stage.plugin + " may take more rounds per voxel than software GPUs make (65535); use backend cpu");
+    throw NotSupported("stage " + job.stage.plugin +
+                       " may take more rounds per voxel than software GPUs make (65535); use backend cpu");
   device_->begin_frame();
   const ComposedShader shader = compose_stage(job, limits);
   compile(shader);

@@ -40,9 +40,11 @@ TEST(DeltaE, GoldenColours) {
   a.trans.assign(a.color.size(), 0.5f);
   b.trans = a.trans;
   const json values = {{"threshold", 6}, {"space", "display"}};
-  const std::vector<Parameter> declared = {{"threshold", ParameterType::number, "", "6", "", "", Affects::nothing},
-                                           {"space", ParameterType::choice, "", "\"display\"", "display|linear", "", Affects::nothing}};
-  const auto measured = registry().get<MetricPlugin>("metric", "delta_e_luv").compare(ParameterSet("m", declared, values), a, b);
+  const std::vector<Parameter> declared = {
+      {"threshold", ParameterType::number, "", "6", "", "", Affects::nothing},
+      {"space", ParameterType::choice, "", "\"display\"", "display|linear", "", Affects::nothing}};
+  const auto measured =
+      registry().get<MetricPlugin>("metric", "delta_e_luv").compare(ParameterSet("m", declared, values), a, b);
   EXPECT_NEAR(measured[0].second, number(e["rms"]), 1e-9);
   EXPECT_NEAR(measured[1].second, number(e["rate6"]), 1e-12);
   EXPECT_NEAR(measured[2].second, number(e["rms"]), 1e-9);

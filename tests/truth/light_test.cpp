@@ -26,7 +26,8 @@ json config_of(double lo, double side, int n, const json& extinction, const json
           {"estimator", {{"type", "direct"}}},
           {"lights", {light}},
           {"illumination", {pass}},
-          {"camera", {{"type", "orthographic"}, {"frame", "data"}, {"position", {0, -3, 0}}, {"up", {0, 0, 1}}, {"height", 2}}},
+          {"camera",
+           {{"type", "orthographic"}, {"frame", "data"}, {"position", {0, -3, 0}}, {"up", {0, 0, 1}}, {"height", 2}}},
           {"sampling", {{"type", "uniform"}, {"step", 0.5}, {"unit", "voxel"}}},
           {"image", {{"size", {8, 8}}}}};
 }
@@ -34,14 +35,18 @@ json point(double x) { return {{"type", "point"}, {"position", {x, 0, 0}}}; }
 json from_right() { return {{"type", "directional"}, {"direction", {1, 0, 0}}}; }
 /// Lengths in voxels of `side / (n - 1)`.
 json piecewise(double segment, int samples) {
-  return {{"type", "local_piecewise"}, {"components", "direct"},       {"segment", segment},
-          {"segment_samples", samples}, {"shadow_ratio", {1, 1, 1}}};
+  return {{"type", "local_piecewise"},
+          {"components", "direct"},
+          {"segment", segment},
+          {"segment_samples", samples},
+          {"shadow_ratio", {1, 1, 1}}};
 }
 
 /// The value at grid point (i, 2, 2), the middle of the cross section; `channel` counts planes.
 double at(const LightVolume& v, int i, int channel = 0) {
   const auto& n = v.grid.dims;
-  const std::size_t index = (std::size_t(channel) * std::size_t(n[2]) + std::size_t(n[2] / 2)) * std::size_t(n[1]) + std::size_t(n[1] / 2);
+  const std::size_t index =
+      (std::size_t(channel) * std::size_t(n[2]) + std::size_t(n[2] / 2)) * std::size_t(n[1]) + std::size_t(n[1] / 2);
   const std::size_t k = index * std::size_t(n[0]) + std::size_t(i);
   return v.values64 ? (*v.values64)[k] : double((*v.values)[k]);
 }
@@ -81,8 +86,9 @@ TEST_P(Light, GoldenPointInside) {
 TEST_P(Light, TwoLayers) {
   const json tau = {{0, 0.5}, {1, 0.5}, {1, 2}, {2, 2}};
   for (const char* pass : {"piecewise", "full"}) {
-    json config = config_of(0, 2, 201, tau, from_right(),
-                            std::string(pass) == "full" ? json{{"type", "shadow_full"}, {"step", 0.5}} : piecewise(8, 16));
+    json config =
+        config_of(0, 2, 201, tau, from_right(),
+                  std::string(pass) == "full" ? json{{"type", "shadow_full"}, {"step", 0.5}} : piecewise(8, 16));
     SKIP_WHEN_NOT_SUPPORTED({
       LightVolume v = volume(config);
       for (const int i : {0, 50, 100, 150, 200}) {
@@ -139,14 +145,19 @@ json scattered(double radius, int samples) {
 /// A cube of constant extinction tau per voxel, 33 points a side.
 json cube(double tau, const json& pass) {
   json config = config_of(0, 32, 33, {{0, tau}}, from_right(), pass);
-  config["data"] = {{"type", "procedural"}, {"field", "constant"}, {"size", {33, 33, 33}}, {"bounds", {{0, 0, 0}, {32, 32, 32}}}};
+  config["data"] = {
+      {"type", "procedural"}, {"field", "constant"}, {"size", {33, 33, 33}}, {"bounds", {{0, 0, 0}, {32, 32, 32}}}};
   return config;
 }
 
 // A sphere of radius R that emits everywhere: (1 - e^-tau R) / (tau R), up to the midpoint rule.
 TEST_P(Light, AmbientOcclusionOfAUniformMedium) {
   const double tau = 0.2, R = 10;
-  const json config = cube(tau, {{"type", "local_ambient_occlusion"}, {"radius", R}, {"samples", 64}, {"solid", "tetrahedron"}, {"subdivisions", 0}});
+  const json config = cube(tau, {{"type", "local_ambient_occlusion"},
+                                 {"radius", R},
+                                 {"samples", 64},
+                                 {"solid", "tetrahedron"},
+                                 {"subdivisions", 0}});
   SKIP_WHEN_NOT_SUPPORTED(EXPECT_NEAR(at(volume(config), 16), (1 - std::exp(-tau * R)) / (tau * R), 2e-5));
   EXPECT_NEAR(at(volume(cube(0, config["illumination"][0])), 16), 1, 1e-6) << "empty space";
 }
@@ -156,11 +167,13 @@ TEST_P(Light, ScatteringOfAUniformMedium) {
   const double tau = 0.1, R = 8, to_exit = 16;
   json pass = scattered(R, 128);
   pass["directions_done"] = 1;
+  // Between voxels an exponential is taken as linear: tau^2 / 12 too much.
+  const double linear = 1 + tau * tau / 12;
   // lao: (1/R) int_0^R e^(-tau (to_exit - r)) e^(-tau r) dr = e^(-tau to_exit)
-  SKIP_WHEN_NOT_SUPPORTED(EXPECT_NEAR(at(volume(cube(tau, pass)), 16), std::exp(-tau * to_exit), 2e-5));
+  SKIP_WHEN_NOT_SUPPORTED(EXPECT_NEAR(at(volume(cube(tau, pass)), 16), linear * std::exp(-tau * to_exit), 2e-5));
   pass["normalisation"] = "physical";
   pass["albedo"] = 0.7;
-  EXPECT_NEAR(at(volume(cube(tau, pass)), 16), 0.7 * tau * R * std::exp(-tau * to_exit), 2e-5);
+  EXPECT_NEAR(at(volume(cube(tau, pass)), 16), 0.7 * tau * R * linear * std::exp(-tau * to_exit), 2e-5);
   // Light that reaches every voxel alike: no extinction for light rays has no scattering either, so take a thin medium.
   const double thin = 1e-4;
   pass.erase("directions_done");
@@ -199,13 +212,18 @@ TEST_P(Light, HenyeyGreensteinWeights) {
 
 json cloud(const json& pass) {
   json config = cube(0, pass);
-  config["data"] = {{"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {29, 27, 25}}, {"voxel_type", "uint8"}};
-  config["optical_model"] = {{"type", "absorption_emission"}, {"length_unit", "voxel"}, {"extinction", {{0.3, 0}, {0.5, 0.3}, {0.7, 0}}}, {"color", {{0, 1, 0.8, 0.5}}}};
+  config["data"] = {
+      {"type", "procedural"}, {"field", "marschner_lobb"}, {"size", {29, 27, 25}}, {"voxel_type", "uint8"}};
+  config["optical_model"] = {{"type", "absorption_emission"},
+                             {"length_unit", "voxel"},
+                             {"extinction", {{0.3, 0}, {0.5, 0.3}, {0.7, 0}}},
+                             {"color", {{0, 1, 0.8, 0.5}}}};
   config["lights"] = {{{"type", "directional"}, {"direction", {1, 0.4, 0.8}}}};
   return config;
 }
 
-// Refinement: after all directions, one by one or by fives, the bits of the one-shot result; and after k the same from scratch.
+// Refinement: after all directions, one by one or by fives, the bits of the one-shot result; and after k the same from
+// scratch.
 TEST_P(Light, ProgressiveIsTheOneShotResult) {
   for (const char* phase : {"isotropic", "henyey_greenstein"}) {
     json pass = scattered(6, 3);
@@ -247,7 +265,7 @@ TEST_P(Light, LightsAddUp) {
   const std::vector<json> lights = {{{"type", "directional"}, {"direction", {1, 0.4, 0.8}}, {"color", {0.3, 0.1, 0.1}}},
                                     {{"type", "point"}, {"position", {0.2, 0.1, 0.3}}, {"color", {0.1, 0.2, 0.1}}},
                                     {{"type", "point"}, {"position", {3, -2, 1}}, {"color", {0.1, 0.1, 0.4}}},
-                                    {{"type", "directional"}, {"direction", {-1, 0, 0}}, {"color", {0.2, 0.2, 0.2}}}};
+                                    {{"type", "directional"}, {"direction", {-1, 0, 0}}, {"color", {0.2, 0.2, 0.1}}}};
   config["lights"] = lights;
   SKIP_WHEN_NOT_SUPPORTED({
     const LightVolume all = volume(config);
@@ -319,7 +337,8 @@ TEST_P(Light, PiecewiseIsCloseToFull) {
 
 // A ray through a lit medium: golden hernell_lit, with the light volume linear from 1 to 0.1 along the ray.
 TEST_P(Light, VolumeLightsTheMedium) {
-  // T_lp of a homogeneous medium is no line, so the light comes from a ramp of lights: here the factor itself is checked.
+  // T_lp of a homogeneous medium is no line, so the light comes from a ramp of lights: here the factor itself is
+  // checked.
   json config = cloud(piecewise(4, 4));
   config["estimator"] = {{"type", "exact"}};
   config["optical_model"]["tf"] = "nodes";
@@ -331,8 +350,7 @@ TEST_P(Light, VolumeLightsTheMedium) {
     const FrameResult none = render(config, GetParam());
     EXPECT_LE(largest_difference(unlit.image, none.image), 1e-6) << "blend 0: a factor of 1";
     EXPECT_GT(largest_difference(lit.image, none.image), 0.05);
-    for (std::size_t k = 0; k < lit.image.color.size(); ++k)
-      ASSERT_LE(lit.image.color[k], none.image.color[k] + 1e-6f);
+    for (std::size_t k = 0; k < lit.image.color.size(); ++k) ASSERT_LE(lit.image.color[k], none.image.color[k] + 1e-6f);
     EXPECT_EQ(lit.image.trans, none.image.trans);
   })
 }
@@ -349,7 +367,8 @@ std::vector<std::string> run_of(const json& config) {
   return run;
 }
 
-// Nothing is computed again that did not change: the camera, the bias, the radius, the shadow volume, a light, the medium.
+// Nothing is computed again that did not change: the camera, the bias, the radius, the shadow volume, a light, the
+// medium.
 TEST(LightUpdates, OnlyWhatChanged) {
   using Run = std::vector<std::string>;
   json config = cloud(scattered(5, 2));

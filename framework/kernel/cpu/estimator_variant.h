@@ -39,7 +39,8 @@ struct DVR_STRUCT : kernel_base {
 #if DVR_FULL
       if (frame_lit != 0) {
         const vec3r m1 = {load(c->m[0] + b), load(c->m[1] + b), load(c->m[2] + b)};
-        q = segment_in_light(q, frame_samples_ends != 0 ? vec3r{load(c->m[0] + a), load(c->m[1] + a), load(c->m[2] + a)} : m1, m1);
+        q = segment_in_light(
+            q, frame_samples_ends != 0 ? vec3r{load(c->m[0] + a), load(c->m[1] + a), load(c->m[2] + a)} : m1, m1);
       }
 #endif
       vec3r color;

@@ -77,13 +77,13 @@ bool cells(const dvr_bindings* bindings) {
     if (strcmp(bindings->uniforms[k].name, "frame_cells") == 0) return true;
   return false;
 }
-#define DVR_MAKE(type)                                                                                                \
-  ((features & DVR_FEATURE_VALUES) != 0 ? make_values<Values_##type>(frame, bindings, calls, missing)                  \
-   : cells(bindings)                    ? make<Cells_##type>(frame, bindings, calls, missing)                          \
+#define DVR_MAKE(type)                                                                                \
+  ((features & DVR_FEATURE_VALUES) != 0 ? make_values<Values_##type>(frame, bindings, calls, missing) \
+   : cells(bindings)                    ? make<Cells_##type>(frame, bindings, calls, missing)         \
                                         : make<Sampler_##type>(frame, bindings, calls, missing))
 #else
-#define DVR_MAKE(type)                                                                                                \
-  ((features & DVR_FEATURE_VALUES) != 0 ? make_values<Values_##type>(frame, bindings, calls, missing)                  \
+#define DVR_MAKE(type)                                                                                \
+  ((features & DVR_FEATURE_VALUES) != 0 ? make_values<Values_##type>(frame, bindings, calls, missing) \
                                         : make<Sampler_##type>(frame, bindings, calls, missing))
 #endif
 

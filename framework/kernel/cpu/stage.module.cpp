@@ -1,8 +1,8 @@
 // A light stage as a kernel module: fills a volume, row by row. DVR_KERNEL_FILE defines
 //   vec4r stage_voxel(inti x, inti y, inti z)
-// of which the first stage_channels numbers are kept, and names what it reads: VOLUME(...), volumes of earlier stages. It asks
-// the field by sample_value(p), which is the sampler module's, and marches towards lights by light_ray.kernel. Compiled
-// once per instruction set, for grey and for RGB extinction.
+// of which the first stage_channels numbers are kept, and names what it reads: VOLUME(...), volumes of earlier stages.
+// It asks the field by sample_value(p), which is the sampler module's, and marches towards lights by light_ray.kernel.
+// Compiled once per instruction set, for grey and for RGB extinction.
 #include "framework/kernel/cpu/kernel.h"
 #include "framework/kernel/cpu/rows.h"
 

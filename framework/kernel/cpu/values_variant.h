@@ -1,5 +1,5 @@
-// A positional sampler of one voxel type that answers light stages (not guarded): no ray, and rows of voxels are read as
-// rows.
+// A positional sampler of one voxel type that answers light stages (not guarded): no ray, and rows of voxels are read
+// as rows.
 struct DVR_STRUCT : kernel_base {
   using kernel_base::kernel_base;
 #define VOXELS(name) dvr::voxels<DVR_VOXEL> name = {this->buffer<DVR_VOXEL>(#name, DVR_VOXEL_ELEMENT)};

@@ -1,6 +1,7 @@
 // Global light propagation by local piecewise integration (Hernell et al. 2008): plans the stages of its four kernels.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "framework/interfaces/light_keys.h"
 #include "framework/interfaces/transfer_function.h"
@@ -12,33 +13,37 @@ using enum ParameterType;
 constexpr Affects pixels = Affects::pixels;
 
 const Parameter parameters[] = {
-    {"segment", number, "voxel", "8", "(0,inf)", "Length of the local segments: the step of the way to the light.", pixels, "",
-     "3"},
-    {"segment_samples", integer, "", "0", "[0,4096]", "Samples of a local segment; 0: one per voxel of its length.", pixels,
-     "", "2"},
+    {"segment", number, "voxel", "8", "(0,inf)", "Length of the local segments: the step of the way to the light.",
+     pixels, "", "3"},
+    {"segment_samples", integer, "", "0", "[0,4096]", "Samples of a local segment; 0: one per voxel of its length.",
+     pixels, "", "2"},
     {"shadow_ratio", integer3, "", "[4,4,4]", "[1,16]",
-     "Voxels per point of the shadow volume along x, y, z; the light's whole way is integrated at the full resolution.", pixels,
-     "", "[1,1,1]"},
+     "Voxels per point of the shadow volume along x, y, z; the light's whole way is integrated at the full resolution.",
+     pixels, "", "[1,1,1]"},
     {"first_segment", choice, "", "\"piecewise\"", "piecewise|interpolated",
-     "Direct light of a voxel: its own local segment and the shadow volume behind it, or the shadow volume alone (figure 1d, "
+     "Direct light of a voxel: its own local segment and the shadow volume behind it, or the shadow volume alone "
+     "(figure 1d, "
      "1c).",
      pixels, "", "\"interpolated\""},
     {"components", choice, "", "\"scattered\"", "scattered|direct|sum",
      "What lights the volume: light scattered once (the paper's), direct light, or both.", pixels, "", "\"direct\""},
     {"normalisation", choice, "", "\"lao\"", "lao|physical",
-     "lao: an unoccluded voxel in uniform light has as much scattered light; physical: matter scatters albedo times its "
+     "lao: an unoccluded voxel in uniform light has as much scattered light; physical: matter scatters albedo times "
+     "its "
      "extinction.",
      pixels, "", "\"physical\"", "components=scattered|sum"},
     {"albedo", number, "", "1", "[0,1]", "Part of the extinction that scatters.", pixels,
      R"({"illumination":[{"normalisation":"physical"}]})", "0.5", "normalisation=physical"},
     {"radius", number, "voxel", "16", "(0,inf)", "Radius of the sphere that light is scattered from.", pixels, "", "5",
      "components=scattered|sum"},
-    {"samples", integer, "", "8", "[1,1024]", "Samples along each direction.", pixels, "", "3", "components=scattered|sum"},
+    {"samples", integer, "", "8", "[1,1024]", "Samples along each direction.", pixels, "", "3",
+     "components=scattered|sum"},
     {"solid", choice, "", "\"octahedron\"", "tetrahedron|octahedron|icosahedron",
      "Directions are the centres of its faces: 4, 8 or 20; one of them points at the first light.", pixels, "",
      "\"icosahedron\"", "components=scattered|sum"},
-    {"subdivisions", integer, "", "1", "[0,3]", "How often each face is cut into four: 32 directions are the octahedron once.",
-     pixels, "", "0", "components=scattered|sum"},
+    {"subdivisions", integer, "", "1", "[0,3]",
+     "How often each face is cut into four: 32 directions are the octahedron once.", pixels, "", "0",
+     "components=scattered|sum"},
     {"weights", choice, "", "\"equal\"", "equal|solid_angle",
      "Weights of the directions: all alike, or the solid angles of their faces.", pixels, "", "\"solid_angle\"",
      "components=scattered|sum"},
@@ -46,22 +51,41 @@ const Parameter parameters[] = {
      "\"henyey_greenstein\"", "components=scattered|sum"},
     {"g", number, "", "0.5", "(-1,1)", "Mean cosine of the scattering angle; positive: forward.", pixels,
      R"({"illumination":[{"phase":"henyey_greenstein"}]})", "-0.3", "phase=henyey_greenstein"},
-    {"g_of_value", nodes, "", "null", "1", "The same as a function of the value at the voxel, in place of g.", pixels,
-     R"({"illumination":[{"phase":"henyey_greenstein"}]})", "[[0,0.8],[1,-0.8]]", "phase=henyey_greenstein"},
+    {"g_of_value", json, "", "null", "null or [[value, g], ...] with ascending values and g in (-1, 1)",
+     "The same as a function of the value at the voxel, linear in between, in place of g.", pixels,
+     R"({"illumination":[{"phase":"henyey_greenstein"}]})", "[[0,0.8],[1,-0.8]]", "phase=henyey_greenstein",
+     R"({"type":["array","null"],"items":{"type":"array","items":{"type":"number"},"minItems":2,"maxItems":2}})"},
     {"orders", integer, "", "1", "[1,64]",
-     "How often light is scattered: what came of one order is scattered again (isotropic phase function only).", pixels, "",
-     "2", "components=scattered|sum"},
+     "How often light is scattered: what came of one order is scattered again (isotropic phase function only).", pixels,
+     "", "2", "components=scattered|sum"},
     {"directions_done", integer, "", "0", "[0,1280]",
-     "Progressive refinement: the mean over so many first directions, the light's own before all; 0: all.", pixels, "", "3",
-     "components=scattered|sum"},
+     "Progressive refinement: the mean over so many first directions, the light's own before all; 0: all.", pixels, "",
+     "3", "components=scattered|sum"},
     {"progressive", boolean, "", "false", "",
-     "One stage per direction, so that the next frame goes on where this one ended, and each is timed.", Affects::speed, "",
-     "true", "components=scattered|sum"},
+     "One stage per direction, so that the next frame goes on where this one ended, and each is timed.", Affects::speed,
+     "", "true", "components=scattered|sum"},
     light_opacity_scale_key,
     light_bias_key,
     light_blend_key,
     light_resolution_key,
 };
+
+/// The nodes of g_of_value; none where it is not read.
+std::vector<Node> lobes_of(const ParameterSet& p) {
+  std::vector<Node> nodes;
+  if (p.text("components") == "direct" || p.text("phase") != "henyey_greenstein" || p.is_null("g_of_value"))
+    return nodes;
+  for (const nlohmann::json& row : p.json("g_of_value")) {
+    const bool numbers = row.is_array() && row.size() == 2 && row[0].is_number() && row[1].is_number();
+    if (!numbers || std::abs(row[1].get<double>()) >= 1 ||
+        (!nodes.empty() && row[0].get<double>() < nodes.back().value))
+      throw InputError(p.path_of("g_of_value") + ": found " + row.dump() +
+                       "; give [value, g] with ascending values and g in (-1, 1)");
+    const double g = row[1].get<double>();
+    nodes.push_back({row[0].get<double>(), {g, g, g}});
+  }
+  return nodes;
+}
 
 class Planner {
  public:
@@ -91,11 +115,12 @@ class Planner {
   }
 
  private:
-  int add(const char* kernel, const std::string& label, const std::array<int, 3>& dims, int first, std::vector<Uniform> uniforms,
-          std::vector<StageRead> reads, std::vector<Buffer> buffers = {}) {
+  int add(const char* kernel, const std::string& label, const std::array<int, 3>& dims, int first,
+          std::vector<Uniform> uniforms, std::vector<StageRead> reads, std::vector<Buffer> buffers = {}) {
     LightStage stage;
     stage.kernel = std::string("local_piecewise_") + kernel;
-    stage.label = label + (s_.light.size() > std::size_t(s_.lights_per_volume()) ? " " + std::to_string(first + 1) : "");
+    stage.label =
+        label + (s_.light.size() > std::size_t(s_.lights_per_volume()) ? " " + std::to_string(first + 1) : "");
     stage.grid = {dims, s_.channels_from(first)};
     stage.first_light = first;
     stage.uniforms = std::move(uniforms);
@@ -111,12 +136,14 @@ class Planner {
                              {Uniform::real("local_piecewise_segment_length", segment_),
                               Uniform::integer("local_piecewise_segment_samples", segment_samples_)},
                              {});
-    const int shadow = add("shadow", "shadow", coarse_, first, {Uniform::real("local_piecewise_shadow_length", segment_)},
-                           {{"local_piecewise_shadow_segments", segments, true}});
-    return add("direct", "direct", s_.dims, first,
-               {Uniform::real("local_piecewise_direct_length", segment_),
-                Uniform::constant_integer("local_piecewise_direct_first", own ? 1 : 0)},
-               {{"local_piecewise_direct_segments", own ? segments : -1}, {"local_piecewise_direct_shadow", shadow, true}});
+    const int shadow =
+        add("shadow", "shadow", coarse_, first, {Uniform::real("local_piecewise_shadow_length", segment_)},
+            {{"local_piecewise_shadow_segments", segments, true}});
+    return add(
+        "direct", "direct", s_.dims, first,
+        {Uniform::real("local_piecewise_direct_length", segment_),
+         Uniform::constant_integer("local_piecewise_direct_first", own ? 1 : 0)},
+        {{"local_piecewise_direct_segments", own ? segments : -1}, {"local_piecewise_direct_shadow", shadow, true}});
   }
 
   void plan_directions() {
@@ -125,15 +152,15 @@ class Planner {
     if (wanted > directions_.size())
       throw InputError(p_.path_of("directions_done") + ": found " + std::to_string(wanted) + "; there are " +
                        std::to_string(directions_.size()) + " directions, and 0 stands for all");
-    if (wanted != 0) directions_.resize(wanted);
+    directions_done_ = static_cast<int>(wanted != 0 ? wanted : directions_.size());
     double sum = 0;
     for (const LightDirection& d : directions_) {
       const Vector3 toward = s_.sampler_direction(d.omega);
       sum += d.weight;
-      table_.insert(table_.end(), {toward[0], toward[1], toward[2], d.weight, d.omega[0], d.omega[1], d.omega[2],
-                                   d.weight / sum});
+      table_.insert(table_.end(),
+                    {toward[0], toward[1], toward[2], d.weight, d.omega[0], d.omega[1], d.omega[2], d.weight / sum});
     }
-    const Nodes g = p_.text("phase") == "henyey_greenstein" ? p_.nodes("g_of_value") : Nodes();
+    const std::vector<Node> g = lobes_of(p_);
     if (!g.empty()) {
       const Curve curve(g);
       for (int e = 0; e < s_.entries; ++e)
@@ -146,7 +173,8 @@ class Planner {
     int light = direct, scattered = -1;
     for (int order = 1; order <= p_.integer("orders"); ++order) {
       // What is scattered once more: the light of the last order; the physical sum begins with the direct light anew.
-      scattered = add_order(first, order, order > 1 && !physical ? scattered : light, order > 1 && physical ? scattered : -1);
+      scattered =
+          add_order(first, order, order > 1 && !physical ? scattered : light, order > 1 && physical ? scattered : -1);
     }
     part.stages.push_back(scattered);
   }
@@ -155,7 +183,7 @@ class Planner {
     // A driver of a software GPU ends long loops without a word; so many rounds are far from it.
     constexpr int most_rounds = 16384;
     const auto samples = static_cast<int>(p_.integer("samples"));
-    const auto count = static_cast<int>(directions_.size());
+    const int count = directions_done_;
     const int at_once = p_.boolean("progressive") ? 1 : std::clamp(most_rounds / samples, 1, count);
     int before = -1;
     for (int from = 0; from < count; from += at_once) {
@@ -189,7 +217,9 @@ class Planner {
             integer("samples", samples),
             constant("adds", adds ? 1 : 0),
             constant("physical", physical ? 1 : 0),
-            constant("phase", !lobes ? 0 : gs_.empty() ? 1 : 2),
+            constant("phase", !lobes        ? 0
+                              : gs_.empty() ? 1
+                                            : 2),
             real("part", p_.number("radius") * s_.voxel / samples),
             real("scale", physical ? p_.number("albedo") : 1.0 / samples),
             real("g", lobes ? p_.number("g") : 0)};
@@ -202,6 +232,7 @@ class Planner {
   std::array<int, 3> coarse_{};
   bool scatters_;
   std::vector<LightDirection> directions_;
+  int directions_done_ = 0;
   std::vector<double> table_, gs_;
   LightPlan plan_;
 };
@@ -211,10 +242,12 @@ class LocalPiecewise : public IlluminationPlugin {
   bool fills_light_volume() const override { return true; }
   int resolution(const ParameterSet& p) const override { return static_cast<int>(p.integer("resolution")); }
   void check(const ParameterSet& p) const override {
+    lobes_of(p);
     if (p.text("components") == "direct" || p.text("phase") == "isotropic" || p.integer("orders") == 1) return;
-    throw InputError(p.path_of("orders") +
-                     ": light that was scattered has no direction any more, so further orders are isotropic only; set phase "
-                     "to \"isotropic\", or orders to 1");
+    throw InputError(
+        p.path_of("orders") +
+        ": light that was scattered has no direction any more, so further orders are isotropic only; set phase "
+        "to \"isotropic\", or orders to 1");
   }
   LightPlan plan(const ParameterSet& p, const LightSetting& s) const override {
     require_lights(p, s);
@@ -224,10 +257,11 @@ class LocalPiecewise : public IlluminationPlugin {
 
 }  // namespace
 
-DVRLAB_PLUGIN("illumination", "local_piecewise", "1.0", LocalPiecewise, parameters,
-              "global light and first-order scattering by local piecewise integration, as a light volume",
-              "F. Hernell, P. Ljung, A. Ynnerman, Interactive Global Light Propagation in Direct Volume Rendering using Local "
-              "Piecewise Integration, IEEE/EG Symposium on Volume and Point-Based Graphics 2008, "
-              "doi:10.2312/VG/VG-PBG08/105-112")
+DVRLAB_PLUGIN(
+    "illumination", "local_piecewise", "1.0", LocalPiecewise, parameters,
+    "global light and first-order scattering by local piecewise integration, as a light volume",
+    "F. Hernell, P. Ljung, A. Ynnerman, Interactive Global Light Propagation in Direct Volume Rendering using Local "
+    "Piecewise Integration, IEEE/EG Symposium on Volume and Point-Based Graphics 2008, "
+    "doi:10.2312/VG/VG-PBG08/105-112")
 
 }  // namespace dvrlab::local_piecewise

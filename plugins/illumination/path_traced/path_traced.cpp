@@ -12,8 +12,8 @@ constexpr Affects pixels = Affects::pixels;
 
 const Parameter parameters[] = {
     {"samples", integer, "", "64", "[2,16777216]", "Random walks per voxel and light.", pixels, "", "32"},
-    {"components", choice, "", "\"sum\"", "sum|direct|scattered", "What is counted: light that was scattered, that was not, or both.",
-     pixels, "", "\"direct\""},
+    {"components", choice, "", "\"sum\"", "sum|direct|scattered",
+     "What is counted: light that was scattered, that was not, or both.", pixels, "", "\"direct\""},
     {"orders", integer, "", "0", "[0,1000000]", "Scatterings at the most; 0: any number.", pixels, "", "1",
      "components=sum|scattered"},
     {"albedo", number, "", "1", "[0,1]", "Part of the extinction that scatters.", pixels, "", "0.5",
@@ -22,8 +22,8 @@ const Parameter parameters[] = {
      "\"henyey_greenstein\"", "components=sum|scattered"},
     {"g", number, "", "0.5", "(-1,1)", "Mean cosine of the scattering angle; positive: forward.", pixels,
      R"({"illumination":[{"phase":"henyey_greenstein"}]})", "-0.3", "phase=henyey_greenstein"},
-    {"environment", number, "", "0", "[0,inf)", "Light from all around the box, as a fluence relative to the lights'.", pixels,
-     "", "0.5", "components=sum|scattered"},
+    {"environment", number, "", "0", "[0,inf)", "Light from all around the box, as a fluence relative to the lights'.",
+     pixels, "", "0.5", "components=sum|scattered"},
     light_opacity_scale_key,
     light_bias_key,
     light_blend_key,
@@ -70,20 +70,17 @@ class Planner {
     const auto real_of = [](const char* name, double value) {
       return Uniform::real(std::string("path_traced_walk_") + name, value);
     };
-    stage.uniforms = {integer_of("samples", static_cast<int>(p_.integer("samples"))),
-                      // Every walk of the case has numbers of its own.
-                      integer_of("seed", static_cast<int>(s_.seed * 16 + std::uint32_t(light) * 3 + std::uint32_t(color))),
-                      integer_of("orders", static_cast<int>(p_.integer("orders"))),
-                      integer_of("direct", p_.text("components") != "scattered" ? 1 : 0),
-                      integer_of("scattered", direct_only ? 0 : 1),
-                      integer_of("color", color),
-                      real_of("majorant", majorant),
-                      real_of("flight", 1 / majorant),
-                      real_of("albedo", p_.number("albedo")),
-                      integer_of("phase", lobes ? 1 : 0),
-                      real_of("g", lobes ? p_.number("g") : 0),
-                      // One environment, however many lights.
-                      real_of("environment", light == 0 ? p_.number("environment") : 0)};
+    stage.uniforms = {
+        integer_of("samples", static_cast<int>(p_.integer("samples"))),
+        // Every walk of the case has numbers of its own.
+        integer_of("seed", static_cast<int>(s_.seed * 16 + std::uint32_t(light) * 3 + std::uint32_t(color))),
+        integer_of("orders", static_cast<int>(p_.integer("orders"))),
+        integer_of("direct", p_.text("components") != "scattered" ? 1 : 0),
+        integer_of("scattered", direct_only ? 0 : 1), integer_of("color", color), real_of("majorant", majorant),
+        real_of("flight", 1 / majorant), real_of("albedo", p_.number("albedo")), integer_of("phase", lobes ? 1 : 0),
+        real_of("g", lobes ? p_.number("g") : 0),
+        // One environment, however many lights.
+        real_of("environment", light == 0 ? p_.number("environment") : 0)};
     plan_.stages.push_back(std::move(stage));
   }
 
@@ -99,17 +96,20 @@ class PathTraced : public IlluminationPlugin {
   LightPlan plan(const ParameterSet& p, const LightSetting& s) const override {
     require_lights(p, s);
     if (s.surfaces)
-      throw InputError(p.path() + ": random walks need matter that has a length, but the optical model has surfaces, Dirac terms "
-                                  "or opaque values; use local_piecewise or shadow_full, or opaque \"cap\"");
+      throw InputError(p.path() +
+                       ": random walks need matter that has a length, but the optical model has surfaces, Dirac terms "
+                       "or opaque values; use local_piecewise or shadow_full, or opaque \"cap\"");
     return Planner(p, s).plan();
   }
 };
 
 }  // namespace
 
-DVRLAB_PLUGIN("illumination", "path_traced", "1.0", PathTraced, parameters,
-              "single and multiple scattering by random walks without bias, with its standard error, as a light volume",
-              "E. Woodcock et al., Techniques used in the GEM code, ANL-7050, 1965; J. Novak, A. Selle, W. Jarosz, Residual Ratio "
-              "Tracking for Estimating Attenuation in Participating Media, TOG 33(6), 2014, doi:10.1145/2661229.2661292")
+DVRLAB_PLUGIN(
+    "illumination", "path_traced", "1.0", PathTraced, parameters,
+    "single and multiple scattering by random walks without bias, with its standard error, as a light volume",
+    "E. Woodcock et al., Techniques used in the GEM code, ANL-7050, 1965; J. Novak, A. Selle, W. Jarosz, Residual "
+    "Ratio "
+    "Tracking for Estimating Attenuation in Participating Media, TOG 33(6), 2014, doi:10.1145/2661229.2661292")
 
 }  // namespace dvrlab::path_traced

@@ -1,4 +1,5 @@
-// Direct light with every voxel's whole way to the light integrated at full resolution: what local_piecewise approximates.
+// Direct light with every voxel's whole way to the light integrated at full resolution: what local_piecewise
+// approximates.
 #include "framework/interfaces/light_keys.h"
 
 namespace dvrlab::shadow_full {
@@ -29,7 +30,8 @@ class ShadowFull : public IlluminationPlugin {
       stage.label = "march";
       stage.grid = {s.dims, s.channels_from(first)};
       stage.first_light = first;
-      stage.uniforms = {Uniform::real("shadow_full_march_step", p.number("step") * s.voxel)};
+      stage.uniforms = {Uniform::real("shadow_full_march_step", p.number("step") * s.voxel),
+                        Uniform::real("shadow_full_march_inv_step", 1 / (p.number("step") * s.voxel))};
       plan.parts.push_back({{static_cast<int>(plan.stages.size())}, first});
       plan.stages.push_back(std::move(stage));
     }
@@ -39,9 +41,10 @@ class ShadowFull : public IlluminationPlugin {
 
 }  // namespace
 
-DVRLAB_PLUGIN("illumination", "shadow_full", "1.0", ShadowFull, parameters,
-              "direct light, every voxel's way to the light integrated at full resolution, as a light volume",
-              "F. Hernell, P. Ljung, A. Ynnerman, Interactive Global Light Propagation in Direct Volume Rendering using Local "
-              "Piecewise Integration, 2008, figure 6a, doi:10.2312/VG/VG-PBG08/105-112")
+DVRLAB_PLUGIN(
+    "illumination", "shadow_full", "1.0", ShadowFull, parameters,
+    "direct light, every voxel's way to the light integrated at full resolution, as a light volume",
+    "F. Hernell, P. Ljung, A. Ynnerman, Interactive Global Light Propagation in Direct Volume Rendering using Local "
+    "Piecewise Integration, 2008, figure 6a, doi:10.2312/VG/VG-PBG08/105-112")
 
 }  // namespace dvrlab::shadow_full

@@ -61,10 +61,12 @@ class DeltaELuv : public MetricPlugin {
 
 }  // namespace
 
-DVRLAB_PLUGIN("metric", "delta_e_luv", "1.0.0", DeltaELuv, parameters,
-              "Colour difference in CIE 1976 L*u*v*: root mean square and the rate above 6, of all pixels and of those that are not "
-              "background.",
-              "F. Hernell et al. 2008, section 5; P. Ljung et al., Transfer Function Based Adaptive Decompression for Volume "
-              "Rendering of Large Medical Data Sets, VolVis 2004, doi:10.1109/SVVG.2004.14")
+DVRLAB_PLUGIN(
+    "metric", "delta_e_luv", "1.0.0", DeltaELuv, parameters,
+    "Colour difference in CIE 1976 L*u*v*: root mean square and the rate above 6, of all pixels and of those that are "
+    "not "
+    "background.",
+    "F. Hernell et al. 2008, section 5; P. Ljung et al., Transfer Function Based Adaptive Decompression for Volume "
+    "Rendering of Large Medical Data Sets, VolVis 2004, doi:10.1109/SVVG.2004.14")
 
 }  // namespace dvrlab::delta_e_luv
