@@ -271,8 +271,8 @@ TEST(Equation3Oracle, ExactAndRk4AgreeWithGsl) {
   EXPECT_LE(worst_rk4, 1e-4);
 }
 
-// The first interval of the paper's figure 2: rho = 5 - 3 s, kappa = 1.7. Printed with the wrong sign for q2 < 0, the
-// closed form has -4.8856 where .8437 is right (docs/math F).
+// The first interval of the paper's figure 2: rho = 5 - 3 s, kappa = 1.7. The sign of the printed closed form for q2 <
+// 0 is judged by closed_form_test.cpp, with a chromaticity that is not constant.
 TEST_P(VolumeDensity, FirstIntervalOfFigure2) {
   const json model = {{"type", "volume_density"}, {"density", {{0, 5}, {1, 2}}}, {"chromaticity", {{0, 1.7}}}};
   SKIP_WHEN_NOT_SUPPORTED({
