@@ -129,6 +129,30 @@ TEST(Exodus, FaultsAreNamed) {
   expect(c, "holds no values");
 }
 
+// A download that stopped: in the header, in the names, between two arrays, in the last number.
+TEST(Exodus, AFileThatIsCutOffIsSaidToBe) {
+  const Bytes whole = read(DVRLAB_SHIPPED_DATA "/notch_part.exo");
+  const std::string file = scratch("cut.exo");
+  struct Cut {
+    std::size_t keep;
+    std::string words;
+  };
+  for (const Cut& cut :
+       {Cut{100, "is no netCDF file that can be read"}, Cut{1000, "is no netCDF file that can be read"},
+        Cut{whole.size() / 4, "variable \"name_nod_var\" cannot be read"},
+        Cut{whole.size() / 2, "variable \"name_nod_var\" cannot be read"},
+        Cut{3 * whole.size() / 4, "variable \"time_whole\" cannot be read"},
+        Cut{whole.size() - 1, "variable \"vals_elem_var1eb2\" cannot be read"}}) {
+    write(file, Bytes(whole.begin(), whole.begin() + long(cut.keep)));
+    const std::string message = load_error("exodus", {{"file", file}, {"array", "diagonal"}});
+    EXPECT_TRUE(message.starts_with(file)) << message;
+    for (const std::string& words : {cut.words, std::string("the file is cut off or damaged")})
+      EXPECT_NE(message.find(words), std::string::npos) << cut.keep << " bytes: " << message;
+  }
+  write(file, whole);
+  EXPECT_EQ(load_error("exodus", {{"file", file}, {"array", "diagonal"}}), "");
+}
+
 TEST(Exodus, DamagedFilesAreRefused) {
   for (const NetcdfKind kind : {NetcdfKind::classic, NetcdfKind::netcdf4}) {
     const Bytes good = read(file_of(small(), kind));
