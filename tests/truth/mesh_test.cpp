@@ -185,7 +185,8 @@ TEST_P(Mesh, CurvedFieldConverges) {
       data["tolerance"] = 1e-4;
       return largest_difference(image(view(data, soft, 24)), exact);
     };
-    for (const char* cells : {"tetrahedra6", "hexahedra", "wedges", "tetrahedra10", "hexahedra20", "wedges15"}) {
+    for (const char* cells :
+         {"tetrahedra5", "tetrahedra6", "hexahedra", "wedges", "pyramids", "tetrahedra10", "hexahedra20", "wedges15"}) {
       const double coarse = error(cells, 4), fine = error(cells, 8);
       std::printf("%s: %.1e with 4 bricks a side, %.1e with 8\n", cells, coarse, fine);
       EXPECT_GT(coarse, 2.5 * fine) << cells;
