@@ -49,7 +49,7 @@ TEST(Exodus, EveryKindOfNetcdf) {
     EXPECT_EQ(mesh->point[4], (Vector3{1, 1, 1}));
     EXPECT_EQ(mesh->value, (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16})) << "the last time step";
     EXPECT_TRUE(has_note(*mesh, "time step 1 of 2, t = 0.5"));
-    EXPECT_TRUE(has_note(*mesh, "1 cells without a volume"));
+    EXPECT_TRUE(has_note(*mesh, "1 cell without a volume"));
   }
 }
 
@@ -74,6 +74,20 @@ TEST(Exodus, VariablesAndTimeSteps) {
   EXPECT_NE(load_error("exodus", {{"file", file}}).find("several arrays"), std::string::npos);
   EXPECT_NE(load_error("exodus", {{"file", file}, {"array", "p"}, {"time_step", 2}}).find("has 2 time steps, 0 to 1"),
             std::string::npos);
+}
+
+// What a curved cell reaches beyond its nodes is said; what is rounding is not.
+TEST(Exodus, NotesSayWhatIsRead) {
+  const auto part = [](const char* component) {
+    return load_mesh(
+        "exodus",
+        {{"file", DVRLAB_SHIPPED_DATA "/notch_part.exo"}, {"array", "displacement"}, {"component", component}});
+  };
+  const auto norm = part("norm"), z = part("2");
+  EXPECT_TRUE(has_note(*norm, "of 2 arrays, the norm of \"displacement\" is read"));
+  EXPECT_TRUE(has_note(*z, "of 2 arrays, component 2 of \"displacement\" is read"));
+  EXPECT_FALSE(has_note(*norm, "beyond those of the nodes")) << "6.6e-24 below 0, of a range of 4.3e-7";
+  EXPECT_TRUE(has_note(*z, "beyond those of the nodes"));
 }
 
 // Exodus and VTK list the middles of edges in different orders: the shipped part of notch_disp.vtu has the cells of the
