@@ -1,5 +1,6 @@
 #include "framework/app/data_input.h"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -23,26 +24,33 @@ bool looks_like_config(const std::string& file) {
   return in && (c == '{' || c == '/');
 }
 
+/// True where the reader is named by hand.
+bool names_reader(const std::vector<std::string>& set) {
+  return std::any_of(set.begin(), set.end(), [](const std::string& s) { return s.starts_with("data.type="); });
+}
+
 }  // namespace
 
-bool names_data(const std::string& path, const Registry& registry) {
+bool names_data(const std::string& path, const std::vector<std::string>& set, const Registry& registry) {
   if (path.ends_with(".json")) return false;
   if (!readers_of(path, registry).empty()) return true;
   std::error_code ec;
   if (!std::filesystem::is_directory(path, ec) && looks_like_config(path)) return false;
-  reader_of(path, registry);  // says what can be read
+  if (!names_reader(set)) reader_of(path, registry);  // says what can be read
   return true;
 }
 
-void refuse_data(const std::string& path, const Registry& registry) {
-  if (names_data(path, registry))
+void refuse_data(const std::string& path, const std::vector<std::string>& set, const Registry& registry) {
+  if (names_data(path, set, registry))
     throw InputError(path + ": is data; this verb takes a config (dvrlab info " + path +
                      " --starter my.json writes one; dvrlab render takes data too)");
 }
 
 ConfigDocument data_document(const std::string& path, const std::vector<std::string>& set, const Registry& registry) {
   ConfigDocument document = parse_document("{}", path, "");
-  document.tree.root["data"] = {{"type", reader_of(path, registry)}, {"file", path}};  // has no place: nobody wrote it
+  // These have no place: nobody wrote them.
+  if (!names_reader(set)) document.tree.root["data"]["type"] = reader_of(path, registry);
+  document.tree.root["data"]["file"] = path;
   for (const std::string& assignment : set) override_key(document.tree, assignment);
   return document;
 }

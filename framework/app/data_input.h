@@ -11,13 +11,14 @@
 
 namespace dvrlab {
 
-/// True for a data file or folder, false for a config. Throws InputError when it is neither, or not there.
-bool names_data(const std::string& path, const Registry& registry);
+/// True for a data file or folder, false for a config. Throws InputError when it is neither, or not there. A file that
+/// nobody recognises is data where one of `set` names its reader, data.type.
+bool names_data(const std::string& path, const std::vector<std::string>& set, const Registry& registry);
 
 /// For verbs that need a config. Throws InputError for data, saying how a config is made from it.
-void refuse_data(const std::string& path, const Registry& registry);
+void refuse_data(const std::string& path, const std::vector<std::string>& set, const Registry& registry);
 
-/// A document with nothing but the data section that reads `path`.
+/// A document with nothing but the data section that reads `path`, by the reader that `set` names or recognised.
 ConfigDocument data_document(const std::string& path, const std::vector<std::string>& set, const Registry& registry);
 
 struct LoadedData {

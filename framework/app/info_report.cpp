@@ -96,7 +96,8 @@ std::vector<std::vector<std::string>> mesh_rows(const MeshField& mesh, const Mes
   rows.push_back({"boundary", std::to_string(s.boundary_faces) + " triangles, " + std::to_string(s.pieces) +
                                   (s.pieces == 1 ? " piece" : " pieces")});
   if (s.crowded_faces > 0)
-    rows.push_back({"", std::to_string(s.crowded_faces) + " faces are shared by more than two cells"});
+    rows.push_back({"", std::to_string(s.crowded_faces) + (s.crowded_faces == 1 ? " face is" : " faces are") +
+                            " shared by more than two cells"});
   rows.push_back({"walked as", std::to_string(s.tetrahedra) + " tetrahedra (sampler " + mesh.sampler + ")"});
   rows.push_back({"volume", number_text(s.volume)});
   rows.push_back({"quality", "mean ratio of the tetrahedra: " + number_text(s.least_quality, 3) + " at the least, " +

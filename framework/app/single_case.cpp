@@ -13,7 +13,7 @@ namespace {
 
 /// The config that is named, or the starter config of the data that is named.
 ConfigDocument document_of(const Options& o, const Registry& registry, std::shared_ptr<const Field>& field) {
-  if (!names_data(o.config, registry)) return load_document(o.config, o.set);
+  if (!names_data(o.config, o.set, registry)) return load_document(o.config, o.set);
   // Keys of the data section matter for reading it; the others are for the config.
   std::vector<std::string> set_data;
   for (const std::string& s : o.set)

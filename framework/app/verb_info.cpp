@@ -32,7 +32,7 @@ int info_verb(const Options& o) {
     throw InputError("--starter " + o.starter + ": is the data itself; name another file");
   if (!o.starter.empty()) require_writable(o.starter);
   const Registry registry(o.plugin_path);
-  const bool data_alone = names_data(o.config, registry);
+  const bool data_alone = names_data(o.config, o.set, registry);
   if (!data_alone && !o.starter.empty())
     throw InputError("--starter: " + o.config + " is a config already; --starter makes one from a data file");
   if (!o.plot.empty()) check_plot_name(o.plot);

@@ -7,7 +7,7 @@
 namespace dvrlab {
 
 int run_verb(const Options& o) {
-  refuse_data(o.config, Registry(o.plugin_path));
+  refuse_data(o.config, o.set, Registry(o.plugin_path));
   std::vector<std::string> set = o.set;
   if (o.repeat > 0) set.push_back("repeat=" + std::to_string(o.repeat));
   const RunSummary summary = run_experiment({o.config, set, o.plugin_path, o.out});

@@ -66,7 +66,7 @@ nlohmann::ordered_json json_of(const PlannedCase& c, const TableStudy& s) {
 
 int table_verb(const Options& o) {
   const Registry registry(o.plugin_path);
-  refuse_data(o.config, registry);
+  refuse_data(o.config, o.set, registry);
   ConfigDocument document = load_document(o.config, o.set);
   for (const char* key : {"expect", "reference"}) document.tree.root.erase(key);  // of images
   const Experiment experiment = plan_experiment(document, registry);

@@ -11,7 +11,7 @@ namespace dvrlab {
 int validate_verb(const Options& o) {
   const Registry registry(o.plugin_path);
   try {
-    refuse_data(o.config, registry);
+    refuse_data(o.config, o.set, registry);
     const Experiment experiment = plan_experiment(load_document(o.config, o.set), registry);
     std::size_t references = 0;
     nlohmann::json ids = nlohmann::json::array();

@@ -48,7 +48,7 @@ std::string formats(const Registry& registry) {
     }
   }
   std::sort(names.begin(), names.end());
-  return join_words(names) + " (judged by name and first bytes)" +
+  return join_words(names) + " (judged by name and first bytes; --set data.type=TYPE names one)" +
          (has_headerless ? std::string("; a file without a header needs a config with data.type ") + headerless +
                                " (dvrlab describe data." + headerless + ")"
                          : "");
@@ -75,7 +75,7 @@ std::string reader_of(const std::string& path, const Registry& registry) {
   if (names.size() == 1) return names[0];
   if (names.empty()) throw InputError(path + ": no reader recognises it; data is read from " + formats(registry));
   throw InputError(path + ": more than one reader recognises it: " + join_words(names) +
-                   "; write a config that names one as data.type");
+                   "; name one with --set data.type=TYPE, or in a config");
 }
 
 }  // namespace dvrlab

@@ -143,6 +143,19 @@ TEST_F(Info, AFolderWithSeveralSeries) {
   expect_one_error(run("dvrlab info data/dicom_torus --set data.seris=2.25.1"), 2, {"--set: data.seris", "'series'"});
 }
 
+// Text that could be anything: the reader is named by hand, for every verb that takes data.
+TEST_F(Info, TheReaderMayBeNamed) {
+  expect_one_error(run("dvrlab info data/samples.csv"), 2, {"no reader recognises it", "--set data.type=TYPE"});
+  if (run("dvrlab describe data.points").code != 0) GTEST_SKIP() << "not supported: the points plugin is not built";
+  const nlohmann::json j = json_of("dvrlab info data/samples.csv --set data.type=points --set data.column=4 --json");
+  EXPECT_EQ(j["reader"], "points");
+  const Outcome drawn =
+      run("dvrlab render data/samples.csv --set data.type=points --set 'image.size=[8,8]' -o samples.png");
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  expect_one_error(run("dvrlab info data/samples.csv --set data.type=poinst"), 2, {"data.type", "'points'"});
+  expect_one_error(run("dvrlab run data/samples.csv --set data.type=points"), 2, {"is data", "--starter"});
+}
+
 TEST_F(Info, WhatCannotBeRead) {
   write("empty.vti", "");
   expect_one_error(run("dvrlab info empty.vti"), 2, {"empty.vti: is empty"});

@@ -49,7 +49,7 @@ TEST(Exodus, EveryKindOfNetcdf) {
     EXPECT_EQ(mesh->point[4], (Vector3{1, 1, 1}));
     EXPECT_EQ(mesh->value, (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16})) << "the last time step";
     EXPECT_TRUE(has_note(*mesh, "time step 1 of 2, t = 0.5"));
-    EXPECT_TRUE(has_note(*mesh, "1 cells without a volume"));
+    EXPECT_TRUE(has_note(*mesh, "1 cell without a volume"));
   }
 }
 
@@ -74,6 +74,20 @@ TEST(Exodus, VariablesAndTimeSteps) {
   EXPECT_NE(load_error("exodus", {{"file", file}}).find("several arrays"), std::string::npos);
   EXPECT_NE(load_error("exodus", {{"file", file}, {"array", "p"}, {"time_step", 2}}).find("has 2 time steps, 0 to 1"),
             std::string::npos);
+}
+
+// What a curved cell reaches beyond its nodes is said; what is rounding is not.
+TEST(Exodus, NotesSayWhatIsRead) {
+  const auto part = [](const char* component) {
+    return load_mesh(
+        "exodus",
+        {{"file", DVRLAB_SHIPPED_DATA "/notch_part.exo"}, {"array", "displacement"}, {"component", component}});
+  };
+  const auto norm = part("norm"), z = part("2");
+  EXPECT_TRUE(has_note(*norm, "of 2 arrays, the norm of \"displacement\" is read"));
+  EXPECT_TRUE(has_note(*z, "of 2 arrays, component 2 of \"displacement\" is read"));
+  EXPECT_FALSE(has_note(*norm, "beyond those of the nodes")) << "6.6e-24 below 0, of a range of 4.3e-7";
+  EXPECT_TRUE(has_note(*z, "beyond those of the nodes"));
 }
 
 // Exodus and VTK list the middles of edges in different orders: the shipped part of notch_disp.vtu has the cells of the
@@ -127,6 +141,30 @@ TEST(Exodus, FaultsAreNamed) {
   c.point_values.clear();
   c.cell_values.clear();
   expect(c, "holds no values");
+}
+
+// A download that stopped: in the header, in the names, between two arrays, in the last number.
+TEST(Exodus, AFileThatIsCutOffIsSaidToBe) {
+  const Bytes whole = read(DVRLAB_SHIPPED_DATA "/notch_part.exo");
+  const std::string file = scratch("cut.exo");
+  struct Cut {
+    std::size_t keep;
+    std::string words;
+  };
+  for (const Cut& cut :
+       {Cut{100, "is no netCDF file that can be read"}, Cut{1000, "is no netCDF file that can be read"},
+        Cut{whole.size() / 4, "variable \"name_nod_var\" cannot be read"},
+        Cut{whole.size() / 2, "variable \"name_nod_var\" cannot be read"},
+        Cut{3 * whole.size() / 4, "variable \"time_whole\" cannot be read"},
+        Cut{whole.size() - 1, "variable \"vals_elem_var1eb2\" cannot be read"}}) {
+    write(file, Bytes(whole.begin(), whole.begin() + long(cut.keep)));
+    const std::string message = load_error("exodus", {{"file", file}, {"array", "diagonal"}});
+    EXPECT_TRUE(message.starts_with(file)) << message;
+    for (const std::string& words : {cut.words, std::string("the file is cut off or damaged")})
+      EXPECT_NE(message.find(words), std::string::npos) << cut.keep << " bytes: " << message;
+  }
+  write(file, whole);
+  EXPECT_EQ(load_error("exodus", {{"file", file}, {"array", "diagonal"}}), "");
 }
 
 TEST(Exodus, DamagedFilesAreRefused) {

@@ -27,9 +27,18 @@ json mesh_data(const std::string& cells, const json& size = {5, 4, 4}, double ji
           {"size", size},         {"jitter", jitter}, {"bounds", box_bounds}, {"direction", {0.6, -0.5, 0.7}},
           {"offset", 0.5},        {"scale", 0.3}};
 }
-json grid_data() {
+json formula_data() {
   return {{"type", "procedural"},          {"field", "ramp"}, {"evaluate", "formula"}, {"bounds", box_bounds},
           {"direction", {0.6, -0.5, 0.7}}, {"offset", 0.5},   {"scale", 0.3}};
+}
+
+/// The same ramp, sampled at the points of a grid.
+json grid_data(const json& size) {
+  json data = formula_data();
+  data["evaluate"] = "grid";
+  data["size"] = size;
+  data["voxel_type"] = "float32";
+  return data;
 }
 
 json view(json data, const json& model, int side) {
@@ -60,7 +69,7 @@ TEST_P(Mesh, ChordsOfAConvexMesh) {
   SKIP_WHEN_NOT_SUPPORTED({
     for (const char* cells : {"tetrahedra5", "tetrahedra6"}) {
       const FrameImage mesh = image(view(mesh_data(cells, {9, 8, 7}), everywhere, side));
-      const FrameImage box = image(view(grid_data(), everywhere, side));
+      const FrameImage box = image(view(formula_data(), everywhere, side));
       double worst = 0;
       std::size_t inside = 0;
       for (std::size_t p = 0; p < std::size_t(side) * std::size_t(side); ++p) {
@@ -95,7 +104,7 @@ TEST_P(Mesh, RaysThroughEdgesAndVertices) {
         const FrameImage mesh = image(config);
         const auto box_of = [&](double side) {
           json formula = config;
-          formula["data"] = grid_data();
+          formula["data"] = formula_data();
           formula["data"]["bounds"] = {{-side, -side, -side}, {side, side, side}};
           return image(formula);
         };
@@ -122,7 +131,7 @@ const json layers = {{"type", "absorption_emission"},
 
 // A linear field is linear in every cell: the mesh gives what the formula gives, whatever its cells are.
 TEST_P(Mesh, LinearFieldIsTheFormulas){SKIP_WHEN_NOT_SUPPORTED({
-  const FrameImage formula = image(view(grid_data(), layers, 40));
+  const FrameImage formula = image(view(formula_data(), layers, 40));
   for (const char* cells :
        {"tetrahedra5", "tetrahedra6", "hexahedra", "wedges", "pyramids", "tetrahedra10", "hexahedra20", "wedges15"}) {
     // Faces of jittered hexahedra are no planes: the map is continued beyond them, which a linear field does not mind.
@@ -134,6 +143,22 @@ TEST_P(Mesh, LinearFieldIsTheFormulas){SKIP_WHEN_NOT_SUPPORTED({
   }
   EXPECT_GT(largest_difference(image(view(mesh_data("hexahedra"), everywhere, 40)), formula), 0.1)
       << "negative control";
+})}
+
+// And what the renderer of grids gives for it, whose trilinear cells hold a linear field too.
+TEST_P(Mesh, LinearFieldIsTheGrids){SKIP_WHEN_NOT_SUPPORTED({
+  for (const json& size : {json{5, 4, 4}, json{21, 17, 13}}) {
+    const FrameImage grid = image(view(grid_data(size), layers, 40));
+    for (const char* cells : {"tetrahedra5", "tetrahedra6"}) {
+      const double worst = largest_difference(image(view(mesh_data(cells), layers, 40)), grid);
+      std::printf("%s, grid of %s points: %.1e\n", cells, size.dump().c_str(), worst);
+      EXPECT_LE(worst, 3e-5) << cells;
+    }
+  }
+  json other = grid_data({5, 4, 4});
+  other["offset"] = 0.501;
+  EXPECT_GT(largest_difference(image(view(mesh_data("tetrahedra6"), layers, 40)), image(view(other, layers, 40))), 3e-4)
+      << "negative control: a field that is 0.001 higher";
 })}
 
 // A curved field: cells of higher degree follow it better, and finer cells better than coarse ones.
@@ -152,7 +177,7 @@ TEST_P(Mesh, CurvedFieldConverges) {
                      {"extinction", {{0, 0.1}, {0.5, 2}, {1, 0.5}}},
                      {"color", {{0, 0.1, 0.3, 1}, {1, 0.9, 0.5, 0.2}}}};
   SKIP_WHEN_NOT_SUPPORTED({
-    json truth = view(curved(grid_data()), soft, 24);
+    json truth = view(curved(formula_data()), soft, 24);
     truth["sampling"]["step"] = 0.002;
     const FrameImage exact = image(truth);
     const auto error = [&](const char* cells, int n) {
@@ -160,7 +185,8 @@ TEST_P(Mesh, CurvedFieldConverges) {
       data["tolerance"] = 1e-4;
       return largest_difference(image(view(data, soft, 24)), exact);
     };
-    for (const char* cells : {"tetrahedra6", "hexahedra", "wedges", "tetrahedra10", "hexahedra20", "wedges15"}) {
+    for (const char* cells :
+         {"tetrahedra5", "tetrahedra6", "hexahedra", "wedges", "pyramids", "tetrahedra10", "hexahedra20", "wedges15"}) {
       const double coarse = error(cells, 4), fine = error(cells, 8);
       std::printf("%s: %.1e with 4 bricks a side, %.1e with 8\n", cells, coarse, fine);
       EXPECT_GT(coarse, 2.5 * fine) << cells;

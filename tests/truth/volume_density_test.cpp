@@ -129,6 +129,37 @@ TEST_P(VolumeDensity, NarrowPulsesBecomeIsosurfaces) {
   })
 }
 
+TEST(VolumeDensityInput, AFlaggedIntervalIsReadStrictly) {
+  const auto refusal = [](const json& shaded) -> std::string {
+    json model = density_model();
+    model["shaded"] = shaded;
+    try {
+      scene_of(ray_of(model, exact));
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  struct Wrong {
+    json shaded;
+    std::string words;
+  };
+  const json good = {{"from", 0.2}, {"to", 0.4}};
+  const auto with = [&](const char* key, const json& x) { return json::array({patched(good, {{key, x}})}); };
+  EXPECT_EQ(refusal(json::array({good})), "");
+  for (const char* word : {"source", "dirac"}) EXPECT_EQ(refusal(with("as", word)), "");
+  for (const Wrong& w : {Wrong{with("as", "surface"), "shaded[0].as: found \"surface\"; must be one of source, dirac"},
+                         Wrong{with("as", 3), "shaded[0].as: found 3; must be one of source, dirac"},
+                         Wrong{with("to", "1"), "shaded[0]: 'to' must be a number"},
+                         Wrong{with("at", 0.3), "shaded[0]: unknown key 'at'; legal: as, from, thickness, to"},
+                         Wrong{with("thickness", 0), "shaded[0].thickness: found 0; must be a number in (0,inf)"},
+                         Wrong{json::array({3}), "shaded[0]: found 3"}, Wrong{good, "shaded: found {"}}) {
+    const std::string message = refusal(w.shaded);
+    EXPECT_NE(message.find("optical_model." + w.words), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << "one error";
+  }
+}
+
 // Sabella's particles: the closed form of equation 5 is exact for them, whatever the step; and they are the continuous
 // model with one transfer function.
 TEST_P(VolumeDensity, ParticlesHaveAClosedForm) {
@@ -240,8 +271,8 @@ TEST(Equation3Oracle, ExactAndRk4AgreeWithGsl) {
   EXPECT_LE(worst_rk4, 1e-4);
 }
 
-// The first interval of the paper's figure 2: rho = 5 - 3 s, kappa = 1.7. Printed with the wrong sign for q2 < 0, the
-// closed form has -4.8856 where .8437 is right (docs/math F).
+// The first interval of the paper's figure 2: rho = 5 - 3 s, kappa = 1.7. The sign of the printed closed form for q2 <
+// 0 is judged by closed_form_test.cpp, with a chromaticity that is not constant.
 TEST_P(VolumeDensity, FirstIntervalOfFigure2) {
   const json model = {{"type", "volume_density"}, {"density", {{0, 5}, {1, 2}}}, {"chromaticity", {{0, 1.7}}}};
   SKIP_WHEN_NOT_SUPPORTED({

@@ -214,6 +214,12 @@ void set_frame(MeshField& mesh) {
   }
 }
 
+std::string range_text(double lo, double hi) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%.9g to %.9g", lo, hi);
+  return text;
+}
+
 void set_range(MeshField& mesh) {
   const auto [lo, hi] = value_range(mesh);
   mesh.intercept = lo;
@@ -221,25 +227,24 @@ void set_range(MeshField& mesh) {
   mesh.stored_min = 0;
   mesh.stored_max = hi > lo ? 1 : 0;
   const auto [a, b] = std::minmax_element(mesh.value.begin(), mesh.value.end());
-  if (lo < *a || hi > *b) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "values inside cells go from %.9g to %.9g, beyond those of the nodes, %.9g to %.9g", lo, hi, *a, *b);
-    mesh.notes.push_back(text);
-  }
+  // A billionth of the range is rounding, and so is what nine digits do not show.
+  const double rounding = 1e-9 * (*b - *a);
+  const std::string nodes = range_text(*a, *b), inside = range_text(lo, hi);
+  if ((lo < *a - rounding || hi > *b + rounding) && inside != nodes)
+    mesh.notes.push_back("values inside cells go from " + inside + ", beyond those of the nodes, " + nodes);
 }
 
 void say_faults(MeshField& mesh) {
   const MeshFaults& f = mesh.faults;
-  const auto say = [&](std::uint64_t n, const char* what) {
-    if (n > 0) mesh.notes.push_back(std::to_string(n) + " " + what);
+  const auto say = [&](std::uint64_t n, const char* one, const char* many, const char* what) {
+    if (n > 0) mesh.notes.push_back(std::to_string(n) + " " + (n == 1 ? one : many) + " " + what);
   };
-  say(f.merged_points, "points coincide with others of the same value: merged");
-  say(f.unused_points, "points belong to no cell: dropped");
-  say(f.duplicate_cells, "cells have the nodes of an earlier one: dropped");
-  say(f.collapsed_cells, "cells have no volume, since their nodes coincide: dropped");
-  say(f.flat_cells, "cells are flat, or a corner of theirs is: kept");
-  say(f.inverted_cells, "cells are inverted (negative volume): taken as they are");
+  say(f.merged_points, "point coincides", "points coincide", "with others of the same value: merged");
+  say(f.unused_points, "point belongs", "points belong", "to no cell: dropped");
+  say(f.duplicate_cells, "cell has", "cells have", "the nodes of an earlier one: dropped");
+  say(f.collapsed_cells, "cell has", "cells have", "no volume, since nodes coincide: dropped");
+  say(f.flat_cells, "cell is", "cells are", "flat, or has a flat corner: kept");
+  say(f.inverted_cells, "cell is", "cells are", "inverted (negative volume): taken as found");
 }
 
 }  // namespace

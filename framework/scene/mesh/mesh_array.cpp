@@ -83,7 +83,8 @@ MeshChoice choose_mesh_array(const std::vector<MeshArray>& arrays, const Paramet
                        "\", or \"norm\" (" + has + ")");
   }
   if (arrays.size() > 1 || a.components > 1)
-    notes.push_back("array " + text_of(a, choice) + " of " + std::to_string(arrays.size()) + " is read");
+    notes.push_back((arrays.size() > 1 ? "of " + std::to_string(arrays.size()) + " arrays, " : "") +
+                    text_of(a, choice) + " is read");
   return choice;
 }
 
@@ -220,7 +221,8 @@ void add_vtk_cells(MeshField& mesh, const std::vector<std::int64_t>& types,
     begin = end;
   }
   if (flat > 0)
-    mesh.notes.push_back(std::to_string(flat) + " cells without a volume (points, lines, surfaces) are left out");
+    mesh.notes.push_back(std::to_string(flat) + (flat == 1 ? " cell" : " cells") +
+                         " without a volume (points, lines, surfaces): left out");
 }
 
 }  // namespace dvrlab

@@ -16,9 +16,16 @@ constexpr std::uint64_t most_blocks = 100000, most_variables = 10000, longest_na
 
 std::string numbered(const char* name, int number) { return name + std::to_string(number); }
 
+/// The library has negative numbers for its own errors. A positive one is of the system, and means little here: bytes
+/// that are not there are "Operation not permitted".
+std::string reason(int error) { return error > 0 ? "the file is cut off or damaged" : nc_strerror(error); }
+
 }  // namespace
 
 void ExodusFile::fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+void ExodusFile::fail_at(const std::string& variable, int error) const {
+  fail("variable \"" + variable + "\" cannot be read: " + reason(error));
+}
 
 ExodusFile::ExodusFile(std::span<const std::byte> bytes, std::string name)
     : name_(std::move(name)), bytes_(bytes.size()) {
@@ -26,7 +33,7 @@ ExodusFile::ExodusFile(std::span<const std::byte> bytes, std::string name)
   const int error = nc_open_mem(name_.c_str(), NC_NOWRITE, bytes.size(), const_cast<std::byte*>(bytes.data()), &id_);
   if (error != NC_NOERR) {
     id_ = -1;
-    fail(std::string("is no netCDF file that can be read: ") + nc_strerror(error));
+    fail("is no netCDF file that can be read: " + reason(error));
   }
   try {
     constexpr std::uint64_t none = 0;
@@ -78,7 +85,7 @@ int ExodusFile::find(const std::string& variable, const std::vector<std::uint64_
 std::vector<double> ExodusFile::numbers(const std::string& variable, std::uint64_t count) const {
   const int id = find(variable, {count}, false);
   std::vector<double> x(count);
-  if (const int error = nc_get_var_double(id_, id, x.data())) fail(variable + ": " + nc_strerror(error));
+  if (const int error = nc_get_var_double(id_, id, x.data())) fail_at(variable, error);
   return x;
 }
 
@@ -86,7 +93,7 @@ std::vector<double> ExodusFile::numbers_at(const std::string& variable, std::uin
   const int id = find(variable, {step + 1, count}, true);
   std::vector<double> x(count);
   const std::size_t from[] = {step, 0}, size[] = {1, count};
-  if (const int error = nc_get_vara_double(id_, id, from, size, x.data())) fail(variable + ": " + nc_strerror(error));
+  if (const int error = nc_get_vara_double(id_, id, from, size, x.data())) fail_at(variable, error);
   return x;
 }
 
@@ -108,7 +115,7 @@ std::vector<std::string> ExodusFile::names(const std::string& variable, const st
   std::string row(width, '\0');
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t from[] = {k, 0}, size[] = {1, width};
-    if (const int error = nc_get_vara_text(id_, id, from, size, row.data())) fail(variable + ": " + nc_strerror(error));
+    if (const int error = nc_get_vara_text(id_, id, from, size, row.data())) fail_at(variable, error);
     std::string word = row.substr(0, row.find('\0'));
     word.erase(word.find_last_not_of(' ') + 1);
     list.push_back(word);
@@ -129,7 +136,7 @@ void ExodusFile::read_blocks() {
     if (nc_inq_attlen(id_, id, "elem_type", &letters) != NC_NOERR || letters > longest_name)
       fail("variable \"" + list + "\" does not say its type of cells (attribute elem_type)");
     b.type.resize(letters);
-    if (const int error = nc_get_att_text(id_, id, "elem_type", b.type.data())) fail(list + ": " + nc_strerror(error));
+    if (const int error = nc_get_att_text(id_, id, "elem_type", b.type.data())) fail_at(list, error);
     b.type = b.type.substr(0, b.type.find('\0'));
     std::transform(b.type.begin(), b.type.end(), b.type.begin(), [](unsigned char c) { return std::toupper(c); });
     blocks_.push_back(b);
@@ -163,7 +170,7 @@ std::vector<std::int64_t> ExodusFile::connectivity(const Block& b) const {
   const std::string list = numbered("connect", b.number);
   const int id = find(list, {b.cells, b.nodes}, false);
   std::vector<long long> node(b.cells * b.nodes);
-  if (const int error = nc_get_var_longlong(id_, id, node.data())) fail(list + ": " + nc_strerror(error));
+  if (const int error = nc_get_var_longlong(id_, id, node.data())) fail_at(list, error);
   std::vector<std::int64_t> from0(node.size());
   for (std::size_t k = 0; k < node.size(); ++k) {
     if (node[k] < 1 || static_cast<std::uint64_t>(node[k]) > points_)
@@ -191,7 +198,7 @@ double ExodusFile::time(std::uint64_t step) const {
   const int id = find("time_whole", {step + 1}, true);
   double t = 0;
   const std::size_t at = step;
-  if (const int error = nc_get_var1_double(id_, id, &at, &t)) fail(std::string("time_whole: ") + nc_strerror(error));
+  if (const int error = nc_get_var1_double(id_, id, &at, &t)) fail_at("time_whole", error);
   return t;
 }
 

@@ -56,6 +56,7 @@ class ExodusFile {
   void read_blocks();
   void read_variables();
   [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail_at(const std::string& variable, int error) const;
 
   std::string name_;
   std::uint64_t bytes_ = 0;

@@ -51,8 +51,8 @@ struct Hull {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 4>> delaunay(const std::vector<Vector3>& points, const std::string& name) {
-  if (points.size() < 5)
-    throw InputError(name + ": holds " + std::to_string(points.size()) + " points; tetrahedra need at least 5");
+  if (points.size() < 4)
+    throw InputError(name + ": holds " + std::to_string(points.size()) + " points; tetrahedra need at least 4");
   std::vector<coordT> coordinates;
   coordinates.reserve(3 * points.size());
   for (const Vector3& p : points) coordinates.insert(coordinates.end(), p.begin(), p.end());

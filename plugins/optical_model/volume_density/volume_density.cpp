@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/config/check_value.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/transfer_function.h"
 
@@ -94,10 +95,30 @@ struct Flagged {
   bool dirac;
 };
 
+/// What is wrong with an item of `shaded`, to be put behind its path; "" when it can be read.
+std::string wrong_interval(const nlohmann::json& item) {
+  if (!item.is_object()) return ": found " + short_text(item) + "; must be {\"from\": v0, \"to\": v1}";
+  for (const auto& [key, x] : item.items())
+    if (key != "from" && key != "to" && key != "as" && key != "thickness")
+      return ": unknown key '" + key + "'; legal: as, from, thickness, to";
+  for (const char* end : {"from", "to"})
+    if (!item.contains(end) || !item[end].is_number())
+      return ": '" + std::string(end) + "' must be a number, an end of the interval of values";
+  if (item.contains("as") && item["as"] != "source" && item["as"] != "dirac")
+    return ".as: found " + short_text(item["as"]) + "; must be one of source, dirac";
+  if (item.contains("thickness") && !(item["thickness"].is_number() && item["thickness"].get<double>() > 0))
+    return ".thickness: found " + short_text(item["thickness"]) + "; must be a number in (0,inf)";
+  return "";
+}
+
 std::vector<Flagged> flagged(const ParameterSet& p) {
+  const nlohmann::json& items = p.json("shaded");
+  if (!items.is_array())
+    throw InputError(p.path_of("shaded") + ": found " + short_text(items) + "; must be a list of intervals");
   std::vector<Flagged> list;
-  for (const nlohmann::json& item : p.json("shaded")) {
+  for (const nlohmann::json& item : items) {
     const std::string where = p.path_of("shaded") + "[" + std::to_string(list.size()) + "]";
+    if (const std::string wrong = wrong_interval(item); !wrong.empty()) throw InputError(where + wrong);
     Flagged f{item.at("from").get<double>(), item.at("to").get<double>(), item.value("thickness", 1.0),
               item.value("as", std::string("source")) == "dirac"};
     if (!(f.from < f.to)) throw InputError(where + ": from must be less than to");
