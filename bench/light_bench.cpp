@@ -47,7 +47,6 @@ double seconds_of(const std::vector<PhaseTime>& times, const std::vector<std::st
 template <class Visit>
 void ways_out(const Scene& scene, const std::array<int, 3>& dims, Visit visit) {
   const Field& f = *scene.field;
-  const Affine inverse = f.to_world.inverse();
   const Buffer& source = *std::find_if(scene.job.light->rays.buffers.begin(), scene.job.light->rays.buffers.end(),
                                        [](const Buffer& b) { return b.name == "light_source"; });
   const auto* d = static_cast<const float*>(source.data.get());

@@ -60,7 +60,7 @@ GlDevice::GlDevice(const std::string& device, bool debug)
 
 GlDevice::~GlDevice() {
   context_->make_current();
-  gl_.DeleteProgram(program_);
+  programs_.clear();
   gl_.DeleteQueries(2, queries_);
 }
 
@@ -119,12 +119,11 @@ void GlDevice::read(GpuBuffer& buffer, void* data, std::uint64_t bytes) {
   check("downloading");
 }
 
-void GlDevice::set_program(const Spirv& spirv, const std::vector<GpuBinding>&) {
+GlProgram::GlProgram(const GlFunctions& gl, const Spirv& spirv) : gl_(gl), name_(gl.CreateProgram()) {
   const auto failed = [&](const char* log) {
+    gl_.DeleteProgram(name_);
     throw std::runtime_error(gl_.text(GL_RENDERER) + " refuses the shader: " + log);
   };
-  gl_.DeleteProgram(program_);
-  program_ = gl_.CreateProgram();
   const GLuint shader = gl_.CreateShader(GL_COMPUTE_SHADER);
   gl_.ShaderBinary(1, &shader, GL_SHADER_BINARY_FORMAT_SPIR_V_ARB, spirv.data(),
                    GLsizei(spirv.size() * sizeof(std::uint32_t)));
@@ -133,13 +132,19 @@ void GlDevice::set_program(const Spirv& spirv, const std::vector<GpuBinding>&) {
   char log[4096] = "";
   gl_.GetShaderiv(shader, GL_COMPILE_STATUS, &good);
   if (!good) gl_.GetShaderInfoLog(shader, sizeof(log), nullptr, log);
-  gl_.AttachShader(program_, shader);
+  gl_.AttachShader(name_, shader);
   gl_.DeleteShader(shader);  // goes with the program
   if (!good) failed(log);
-  gl_.LinkProgram(program_);
-  gl_.GetProgramiv(program_, GL_LINK_STATUS, &good);
-  if (!good) gl_.GetProgramInfoLog(program_, sizeof(log), nullptr, log);
+  gl_.LinkProgram(name_);
+  gl_.GetProgramiv(name_, GL_LINK_STATUS, &good);
+  if (!good) gl_.GetProgramInfoLog(name_, sizeof(log), nullptr, log);
   if (!good) failed(log);
+}
+
+GlProgram::~GlProgram() { gl_.DeleteProgram(name_); }
+
+void GlDevice::set_program(const Spirv& spirv, const std::vector<GpuBinding>&) {
+  program_ = programs_.use(spirv, [&] { return std::make_unique<GlProgram>(gl_, spirv); })->name();
   check("compiling the shader");
 }
 

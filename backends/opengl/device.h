@@ -7,8 +7,24 @@
 
 #include "backends/opengl/egl_context.h"
 #include "framework/shader/gpu_device.h"
+#include "framework/shader/recent.h"
 
 namespace dvrlab {
+
+/// A compute program of the current context.
+class GlProgram {
+ public:
+  /// Throws std::runtime_error with the driver's log.
+  GlProgram(const GlFunctions& gl, const Spirv& spirv);
+  ~GlProgram();
+  GlProgram(const GlProgram&) = delete;
+  GlProgram& operator=(const GlProgram&) = delete;
+  GLuint name() const { return name_; }
+
+ private:
+  const GlFunctions& gl_;
+  GLuint name_;
+};
 
 class GlDevice final : public GpuDevice {
  public:
@@ -36,7 +52,8 @@ class GlDevice final : public GpuDevice {
   ShaderLimits limits_;
   std::vector<std::string> messages_;
   std::uint64_t allocated_ = 0;
-  GLuint program_ = 0;
+  RecentPrograms<std::unique_ptr<GlProgram>> programs_;
+  GLuint program_ = 0;  // of them
   GLuint queries_[2] = {0, 0};
   bool has_clock_ = false;
 };

@@ -125,8 +125,7 @@ void VulkanDevice::read(GpuBuffer& buffer, void* data, std::uint64_t bytes) {
 }
 
 void VulkanDevice::set_program(const Spirv& spirv, const std::vector<GpuBinding>& bindings) {
-  program_.reset();
-  program_ = std::make_unique<VulkanProgram>(context_, spirv, bindings);
+  program_ = programs_.use(spirv, [&] { return std::make_unique<VulkanProgram>(context_, spirv, bindings); }).get();
 }
 
 void VulkanDevice::bind(int binding, GpuBuffer& buffer) {

@@ -7,6 +7,7 @@
 #include "backends/vulkan/buffer.h"
 #include "backends/vulkan/instance.h"
 #include "backends/vulkan/program.h"
+#include "framework/shader/recent.h"
 
 namespace dvrlab {
 
@@ -36,7 +37,8 @@ class VulkanDevice final : public GpuDevice {
   VulkanContext context_;
   ShaderLimits limits_;
   std::unique_ptr<VulkanBuffer> staging_;
-  std::unique_ptr<VulkanProgram> program_;
+  RecentPrograms<std::unique_ptr<VulkanProgram>> programs_;
+  VulkanProgram* program_ = nullptr;  // of them
   VkQueryPool queries_ = VK_NULL_HANDLE;
 };
 

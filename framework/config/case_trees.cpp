@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/config/expectation.h"
 #include "framework/config/sections.h"
 #include "framework/config/views.h"
 #include "framework/interfaces/error.h"
@@ -93,7 +94,7 @@ void check_references(const ConfigTree& document, Problems& problems) {
   for (const auto& [name, patch] : references->items()) {
     const std::string path = child_path("reference", name);
     if (name == "variant" || name == own_reference || name.empty() || name != file_safe(name))
-      bad(path, "is no name for a reference; letters, digits and _ are, except 'variant'");
+      bad(path, "is no name for a reference; letters, digits and _ are, except 'variant' and 'own'");
     if (!patch.is_object()) {
       bad(path, "must be a section: a patch on the case");
       continue;
