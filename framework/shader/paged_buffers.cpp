@@ -67,15 +67,15 @@ std::string unpack_function(const std::string& name, const Packing& pack) {
   return head + "  return int((word >> (" + place + ")) & " + std::to_string((1u << bits) - 1) + "u);\n}\n";
 }
 
-/// Neighbours of packed elements mostly share a word: it is read again only when they do not.
+/// Neighbours of packed elements mostly share a word; it is read twice all the same: Mesa 22.3's lavapipe crashes on some
+/// shaders that read the second one in a branch.
 std::string packed_functions(const std::string& name, const Packing& pack) {
   const std::string word = "dvr_word_" + name, unpack = "dvr_unpack_" + name, s = std::to_string(pack.shift) + "u";
-  const std::string mask = std::to_string((1 << pack.shift) - 1) + "u";
   return "int fetchi_" + name + "(int i) { return " + unpack + "(" + word + "(uint(i) >> " + s + "), uint(i)); }\n" +
          "float fetch1_" + name + "(uint i) { return float(" + unpack + "(" + word + "(i >> " + s + "), i)); }\n" +
          "void fetch2_" + name + "(uint i, out float a, out float b) {\n  uint w = " + word + "(i >> " + s +
-         "), j = i + 1u;\n  a = float(" + unpack + "(w, i));\n  if ((j & " + mask + ") == 0u) w = " + word + "(j >> " +
-         s + ");\n  b = float(" + unpack + "(w, j));\n}\n";
+         "), j = i + 1u;\n  a = float(" + unpack + "(w, i));\n  b = float(" + unpack + "(" + word + "(j >> " + s +
+         "), j));\n}\n";
 }
 
 /// The fetch functions of a buffer that is never read: the kernel's text still names them.

@@ -67,6 +67,12 @@ json estimator(const json& e) {
   return c;
 }
 
+/// A patch that takes the opacity away.
+json without_opacity(json config) {
+  config["optical_model"]["opacity"] = nullptr;
+  return config;
+}
+
 std::vector<Lit> lits() {
   const json points = {{"lights",
                         {{{"type", "point"}, {"position", {0.1, 0.2, 0.3}}, {"color", {1, 0.7, 0.4}}},
@@ -85,7 +91,7 @@ std::vector<Lit> lits() {
       {"icosahedron", pass({{"solid", "icosahedron"}, {"subdivisions", 0}, {"bias", 0.2}, {"blend", 0.7}})},
       {"points_inside_and_outside", points},
       {"rgb_extinction", rgb},
-      {"rgb_extinction_of_points", patched(patched(base(), points), rgb)},
+      {"rgb_extinction_of_points", without_opacity(patched(patched(base(), points), rgb))},
       {"hybrid", hybrid()},
       {"with_blinn_phong", both(hybrid())},
       {"full", {{"illumination", {{{"type", "shadow_full"}, {"step", 0.7}}}}}},
