@@ -1,6 +1,6 @@
-// What light costs: every voxel's whole way to the light beside local piecewise integration, with the differences of the
-// pictures; the updates of Hernell et al. 2008, figure 3: A (segments, shadow volume, direct light), B (one direction of
-// scattering), C (a frame with the finished light). No early termination anywhere. Prints Markdown tables.
+// What light costs: every voxel's whole way to the light beside local piecewise integration, with the differences of
+// the pictures; the updates of Hernell et al. 2008, figure 3: A (segments, shadow volume, direct light), B (one
+// direction of scattering), C (a frame with the finished light). No early termination anywhere. Prints Markdown tables.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,8 @@ double seconds_of(const std::vector<PhaseTime>& times, const std::vector<std::st
   for (const PhaseTime& t : times) {
     const std::string label = t.phase.substr(6);
     const bool wanted = words.empty() ? label != "combine"
-                                      : std::any_of(words.begin(), words.end(), [&](const std::string& w) { return label.starts_with(w); });
+                                      : std::any_of(words.begin(), words.end(),
+                                                    [&](const std::string& w) { return label.starts_with(w); });
     if (wanted) sum += t.seconds;
   }
   return sum;
@@ -85,7 +86,9 @@ Difference difference(const FrameImage& a, const FrameImage& b) {
   double square = 0, above = 0;
   const std::size_t pixels = a.color.size() / 3;
   for (std::size_t i = 0; i < pixels; ++i) {
-    const auto color = [&](const FrameImage& f) { return std::array{f.radiance(3 * i), f.radiance(3 * i + 1), f.radiance(3 * i + 2)}; };
+    const auto color = [&](const FrameImage& f) {
+      return std::array{f.radiance(3 * i), f.radiance(3 * i + 1), f.radiance(3 * i + 2)};
+    };
     const double e = luv_distance(color(a), color(b), false);
     square += e * e;
     above += e > 6 ? 1 : 0;
@@ -97,9 +100,9 @@ struct Piecewise {
   int segment, ratio;
 };
 std::string piecewise(const Piecewise& p, double step) {
-  return R"([{"type":"local_piecewise","components":"direct","segment":)" + std::to_string(p.segment) + ",\"segment_samples\":" +
-         std::to_string(int(p.segment / step)) + ",\"shadow_ratio\":[" + std::to_string(p.ratio) + "," + std::to_string(p.ratio) + "," +
-         std::to_string(p.ratio) + "]}]";
+  return R"([{"type":"local_piecewise","components":"direct","segment":)" + std::to_string(p.segment) +
+         ",\"segment_samples\":" + std::to_string(int(p.segment / step)) + ",\"shadow_ratio\":[" +
+         std::to_string(p.ratio) + "," + std::to_string(p.ratio) + "," + std::to_string(p.ratio) + "]}]";
 }
 
 /// The least time to fill a volume anew.
@@ -120,7 +123,8 @@ void against_full(const Options& o, double step) {
   const auto session = open_backend(section(o.backend));
   FrameResult truth;
   session->render(full.job, truth);
-  std::printf("| %s, %s: shadow_full | %.2f | %.0f | 1 | 1 | 0 | 0 |\n", o.backend.c_str(), steps.c_str(), full_seconds, 1e-6 * full_samples);
+  std::printf("| %s, %s: shadow_full | %.2f | %.0f | 1 | 1 | 0 | 0 |\n", o.backend.c_str(), steps.c_str(), full_seconds,
+              1e-6 * full_samples);
   std::fflush(stdout);
   for (const Piecewise& p : {Piecewise{4, 1}, Piecewise{8, 1}, Piecewise{16, 1}, Piecewise{8, 4}}) {
     const Scene scene = scene_with(piecewise(p, step), o.set);
@@ -129,14 +133,16 @@ void against_full(const Options& o, double step) {
     FrameResult frame;
     session->render(scene.job, frame);
     const Difference d = difference(frame.image, truth.image);
-    std::printf("| segments of %d voxels, shadow volume 1:%d | %.2f | %.0f | %.1f | %.1f | %.2f | %.2f %% |\n", p.segment, p.ratio, seconds,
-                1e-6 * samples, full_seconds / seconds, full_samples / samples, d.rms, 100 * d.rate);
+    std::printf("| segments of %d voxels, shadow volume 1:%d | %.2f | %.0f | %.1f | %.1f | %.2f | %.2f %% |\n",
+                p.segment, p.ratio, seconds, 1e-6 * samples, full_seconds / seconds, full_samples / samples, d.rms,
+                100 * d.rate);
     std::fflush(stdout);
   }
 }
 
 void updates(const Options& o) {
-  const Scene scene = scene_with(R"([{"type":"local_piecewise","progressive":true,"directions_done":4,"radius":16,"samples":8}])", o.set);
+  const Scene scene = scene_with(
+      R"([{"type":"local_piecewise","progressive":true,"directions_done":4,"radius":16,"samples":8}])", o.set);
   std::vector<double> a, b, combine;
   for (int r = 0; r < o.rounds; ++r) {
     std::vector<PhaseTime> times;
@@ -146,15 +152,20 @@ void updates(const Options& o) {
     combine.push_back(seconds_of(times, {"combine"}));
   }
   std::printf("\n| update, %s | seconds, least |\n|---|---|\n", o.backend.c_str());
-  std::printf("| A: segments of 8, shadow volume 1:4, direct light | %.3f |\n| B: one direction, radius 16, 8 samples | %.3f |\n", least(a), least(b));
+  std::printf(
+      "| A: segments of 8, shadow volume 1:4, direct light | %.3f |\n| B: one direction, radius 16, 8 samples | %.3f "
+      "|\n",
+      least(a), least(b));
   std::printf("| the sum over lights, bias | %.3f |\n", least(combine));
-  std::printf("\n| C: frame, %s | unlit, ms | lit, ms | ratio of the least | median ratio |\n|---|---|---|---|---|\n", o.backend.c_str());
+  std::printf("\n| C: frame, %s | unlit, ms | lit, ms | ratio of the least | median ratio |\n|---|---|---|---|---|\n",
+              o.backend.c_str());
   const std::pair<const char*, const char*> tfs[] = {{"surface-like", ""},
                                                      {"soft", "optical_model.opacity=[[0,0],[0.05,0.01],[1,0.2]]"}};
   for (const auto& [name, tf] : tfs) {
     std::vector<std::string> set = o.set;
     if (*tf != '\0') set.emplace_back(tf);
-    const Scene unlit = scene_with("[]", set), lit = scene_with(R"([{"type":"local_piecewise","components":"direct"}])", set);
+    const Scene unlit = scene_with("[]", set),
+                lit = scene_with(R"([{"type":"local_piecewise","components":"direct"}])", set);
     const auto session = open_backend(section(o.backend)), other = open_backend(section(o.backend));
     std::vector<double> without, with, ratio;
     for (int r = 0; r <= o.rounds + 4; ++r) {
@@ -164,7 +175,8 @@ void updates(const Options& o) {
       with.push_back(y);
       ratio.push_back(y / x);
     }
-    std::printf("| %s | %.0f | %.0f | %.2f | %.2f |\n", name, least(without), least(with), least(with) / least(without), median(ratio));
+    std::printf("| %s | %.0f | %.0f | %.2f | %.2f |\n", name, least(without), least(with), least(with) / least(without),
+                median(ratio));
     std::fflush(stdout);
   }
 }
@@ -175,14 +187,18 @@ int main(int argc, char** argv) {
   CLI::App app{"What light costs: local piecewise integration beside full shadows, and its updates"};
   Options o;
   bool skip_full = false;
-  app.add_option("--rounds", o.rounds, "timed fills and frames of each")->capture_default_str()->check(CLI::Range(1, 1000));
+  app.add_option("--rounds", o.rounds, "timed fills and frames of each")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
   app.add_option("--backend", o.backend, "backend")->capture_default_str();
   app.add_option("--set", o.set, std::string("key=value of ") + config);
   app.add_flag("--updates", skip_full, "only the updates, without full shadows");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!skip_full) {
-      std::printf("| light | fill, s | million samples | times faster | times fewer samples | Delta E, RMS | above 6 |\n|---|---|---|---|---|---|---|\n");
+      std::printf(
+          "| light | fill, s | million samples | times faster | times fewer samples | Delta E, RMS | above 6 "
+          "|\n|---|---|---|---|---|---|---|\n");
       against_full(o, 1);
       against_full(o, 0.5);
     }

@@ -41,7 +41,8 @@ std::vector<PhaseTime> take_light(std::vector<PhaseTime>& times) {
 }
 
 /// What a case with a light volume has without any comparison (own_values()).
-Measure own_measure(const std::vector<std::pair<std::string, double>>& light, const std::vector<PhaseStatistics>& times) {
+Measure own_measure(const std::vector<std::pair<std::string, double>>& light,
+                    const std::vector<PhaseStatistics>& times) {
   Measure m{own_reference, "light", {}, false};
   for (const auto& [name, value] : light) m.values.emplace_back("light." + name, value);
   double filling = 0, direct = 0, march = 0;

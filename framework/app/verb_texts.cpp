@@ -68,7 +68,7 @@ const std::vector<VerbText>& verb_texts() {
          "out/first_experiment/cases/reference=fine --tolerance 0.5",
          "how far is a case from the reference?"},
         {"dvrlab compare image.exr image.exr", "the same image?"},
-        {"dvrlab compare a.exr b.exr --difference delta_e.png", "where would an eye see it?"}}},
+        {"dvrlab compare image.exr image.exr --difference delta_e.png", "where would an eye see it?"}}},
       {"probe",
        images,
        "list every segment of the ray through one pixel",

@@ -19,7 +19,10 @@ std::vector<std::pair<std::string, double>> statistics_of(const LightVolume& vol
   const auto count = double(volume.values->size());
   const double mean = sum / count;
   std::vector<std::pair<std::string, double>> values = {
-      {"min", least}, {"max", most}, {"mean", mean}, {"deviation", std::sqrt(std::max(square / count - mean * mean, 0.0))}};
+      {"min", least},
+      {"max", most},
+      {"mean", mean},
+      {"deviation", std::sqrt(std::max(square / count - mean * mean, 0.0))}};
   if (volume.error == nullptr) return values;
   square = most = 0;
   for (const float e : *volume.error) {

@@ -94,7 +94,7 @@ void check_references(const ConfigTree& document, Problems& problems) {
   for (const auto& [name, patch] : references->items()) {
     const std::string path = child_path("reference", name);
     if (name == "variant" || name == own_reference || name.empty() || name != file_safe(name))
-      bad(path, "is no name for a reference; letters, digits and _ are, except 'variant' and 'own'");
+      bad(path, "is no name for a reference; letters, digits and _ are, except 'variant' and 'itself'");
     if (!patch.is_object()) {
       bad(path, "must be a section: a patch on the case");
       continue;

@@ -87,9 +87,9 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
 }  // namespace
 
 const std::vector<std::string>& own_values() {
-  static const std::vector<std::string> names = {"light.min",       "light.max",       "light.mean",  "light.deviation",
-                                                 "light.error_rms", "light.error_max", "time.light", "time.direct_light",
-                                                 "time.march"};
+  static const std::vector<std::string> names = {"light.min",       "light.max",         "light.mean",
+                                                 "light.deviation", "light.error_rms",   "light.error_max",
+                                                 "time.light",      "time.direct_light", "time.march"};
   return names;
 }
 

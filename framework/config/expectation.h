@@ -13,7 +13,7 @@
 namespace dvrlab {
 
 /// What `against` says for values that a case has without any comparison: of its light volume, and times.
-inline constexpr const char* own_reference = "own";
+inline constexpr const char* own_reference = "itself";
 /// "light.min", ...: cases whose passes fill a light volume have them.
 const std::vector<std::string>& own_values();
 

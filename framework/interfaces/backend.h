@@ -80,8 +80,8 @@ struct FrameResult {
   FrameImage image;
   FrameCounters counters;
   std::vector<PhaseTime> times;
-  /// Of the light volume, over its points: "min", "max", "mean", "deviation"; where its pass knows a standard error, the root
-  /// of its mean square and the largest: "error_rms", "error_max". Empty without a light volume.
+  /// Of the light volume, over its points: "min", "max", "mean", "deviation"; where its pass knows a standard error,
+  /// the root of its mean square and the largest: "error_rms", "error_max". Empty without a light volume.
   std::vector<std::pair<std::string, double>> light;
 };
 

@@ -32,18 +32,18 @@ json backend_of(const CaseRecord& r) {
   for (const auto& [part, bytes] : r.memory) memory[part] = static_cast<std::uint64_t>(bytes);
   const ParameterSet& top = r.plan->resolved.top;
   return {{"device", r.device.device},
-                  {"driver", r.device.driver},
-                  {"api", r.device.api},
-                  {"detail", r.device.detail},
-                  {"seed", top.integer("seed")},
-                  {"counters",
-                   {{"samples", r.counters.samples},
-                    {"table_fetches", r.counters.table_fetches},
-                    {"skipped", r.counters.skipped},
-                    {"terminated", r.counters.terminated}}},
-                  {"memory_bytes", memory},
-                  {"repeats", top.integer("repeat")},
-                  {"times", times}};
+          {"driver", r.device.driver},
+          {"api", r.device.api},
+          {"detail", r.device.detail},
+          {"seed", top.integer("seed")},
+          {"counters",
+           {{"samples", r.counters.samples},
+            {"table_fetches", r.counters.table_fetches},
+            {"skipped", r.counters.skipped},
+            {"terminated", r.counters.terminated}}},
+          {"memory_bytes", memory},
+          {"repeats", top.integer("repeat")},
+          {"times", times}};
 }
 
 json metrics_of(const CaseRecord& r) {

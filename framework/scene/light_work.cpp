@@ -119,9 +119,8 @@ std::uint64_t LightWork::bytes() const {
 bool fills_light_volume(const ResolvedCase& c, const Registry& registry) { return volume_pass(c, registry) != nullptr; }
 
 std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& registry, const Field& field,
-                                            const Medium& medium, const MediumTableOptions& options,
-                                            const LocalShading& shading, double value_per_stored,
-                                            double value_of_zero) {
+                                      const Medium& medium, const MediumTableOptions& options,
+                                      const LocalShading& shading, double value_per_stored, double value_of_zero) {
   const Section* pass = volume_pass(c, registry);
   if (pass == nullptr) return nullptr;
   const auto& plugin = registry.get<IlluminationPlugin>("illumination", pass->type);

@@ -35,15 +35,16 @@ double longest_segment(const ResolvedCase& c, const Field& field, double step) {
 }
 
 std::shared_ptr<LightWork> light_work_of(const ResolvedCase& c, const Registry& registry, const Field& field,
-                                               const Medium& medium, const MediumTableOptions& options,
-                                               const LocalShading& shading) {
+                                         const Medium& medium, const MediumTableOptions& options,
+                                         const LocalShading& shading) {
   const TfDomain domain = tf_domain(c.optical_model.parameters, field);
   return light_work(c, registry, field, medium, options, shading, domain.slope(field), domain.intercept(field));
 }
 
-/// What light rays ask at positions: the frame's own sampler, or a grid that stands in for one that walks. Of one mesh and
-/// grid it is made once.
-KernelUnit light_sampler(const Registry& registry, const Field& field, const KernelUnit& own, const std::array<int, 3>& dims) {
+/// What light rays ask at positions: the frame's own sampler, or a grid that stands in for one that walks. Of one mesh
+/// and grid it is made once.
+KernelUnit light_sampler(const Registry& registry, const Field& field, const KernelUnit& own,
+                         const std::array<int, 3>& dims) {
   if (!walks(own)) return own;
   const auto* mesh = dynamic_cast<const MeshField*>(&field);
   if (mesh == nullptr) return own;

@@ -67,8 +67,8 @@ std::string unpack_function(const std::string& name, const Packing& pack) {
   return head + "  return int((word >> (" + place + ")) & " + std::to_string((1u << bits) - 1) + "u);\n}\n";
 }
 
-/// Neighbours of packed elements mostly share a word; it is read twice all the same: Mesa 22.3's lavapipe crashes on some
-/// shaders that read the second one in a branch.
+/// Neighbours of packed elements mostly share a word; it is read twice all the same: Mesa 22.3's lavapipe crashes on
+/// some shaders that read the second one in a branch.
 std::string packed_functions(const std::string& name, const Packing& pack) {
   const std::string word = "dvr_word_" + name, unpack = "dvr_unpack_" + name, s = std::to_string(pack.shift) + "u";
   return "int fetchi_" + name + "(int i) { return " + unpack + "(" + word + "(uint(i) >> " + s + "), uint(i)); }\n" +

@@ -355,6 +355,32 @@ TEST_P(Light, VolumeLightsTheMedium) {
   })
 }
 
+// A mesh of any kind of cells casts the light of its field: here the ramp of two layers.
+TEST_P(Light, MeshesCastShadows) {
+  const json tau = {{0, 0.5}, {1, 0.5}, {1, 2}, {2, 2}};
+  for (const char* cells : {"tetrahedra6", "hexahedra", "wedges15"}) {
+    json config = config_of(0, 2, 9, tau, from_right(), {{"type", "shadow_full"}, {"step", 0.5}, {"resolution", 101}});
+    config["data"]["evaluate"] = "mesh";
+    config["data"]["cells"] = cells;
+    config["optical_model"]["color"] = {{0, 1, 1, 1}};
+    config["camera"]["height"] = 0.1;
+    config["estimator"] = {{"type", "exact"}};
+    config["optical_model"]["tf"] = "nodes";
+    config["sampling"] = {{"type", "faces"}, {"step", 100}};
+    SKIP_WHEN_NOT_SUPPORTED({
+      const LightVolume v = volume(config);
+      ASSERT_EQ(v.grid.dims[0], 101);
+      for (const int i : {0, 25, 75, 100}) {
+        const double x = 2 * i / 100.0;
+        EXPECT_NEAR(at(v, i), std::exp(-(x < 1 ? 0.5 * (1 - x) + 2 : 2 * (2 - x))), 2e-3) << cells << " at " << x;
+      }
+      const FrameResult lit = render(config, GetParam());
+      config["illumination"] = json::array();
+      EXPECT_GT(largest_difference(lit.image, render(config, GetParam()).image), 0.01);
+    })
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, Light, testing::ValuesIn(targets()), target_name);
 
 /// Labels of the stages that were run.

@@ -99,7 +99,8 @@ json cloud(const json& pass) {
   return config;
 }
 
-// `physical` with a radius beyond the volume is one scattering, up to its own midpoint rule and directions.
+// `physical` with a radius beyond the volume is one scattering, up to its own midpoint rule and directions. Segments
+// reach to the light, so that no transmittance is interpolated on the way.
 TEST(PathTraced, PhysicalScatteringIsOneOrder) {
   for (const char* phase : {"isotropic", "henyey_greenstein"}) {
     json pass = {{"type", "local_piecewise"},
@@ -108,8 +109,8 @@ TEST(PathTraced, PhysicalScatteringIsOneOrder) {
                  {"radius", 24},
                  {"samples", 96},
                  {"subdivisions", 3},
-                 {"segment", 1},
-                 {"segment_samples", 4},
+                 {"segment", 30},
+                 {"segment_samples", 96},
                  {"shadow_ratio", {1, 1, 1}},
                  {"weights", "solid_angle"},
                  {"phase", phase}};

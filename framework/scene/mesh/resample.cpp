@@ -92,7 +92,8 @@ ResampledMesh resample(const MeshField& mesh, const std::array<int, 3>& dims) {
     for (int z = first[2]; z <= last[2]; ++z)
       for (int y = first[1]; y <= last[1]; ++y)
         for (int x = first[0]; x <= last[0]; ++x) {
-          const std::size_t at = (std::size_t(z) * std::size_t(dims[1]) + std::size_t(y)) * std::size_t(dims[0]) + std::size_t(x);
+          const std::size_t at =
+              (std::size_t(z) * std::size_t(dims[1]) + std::size_t(y)) * std::size_t(dims[0]) + std::size_t(x);
           if (r.inside[at] != 0) continue;
           const Vector3 p{mesh.lo[0] + x * step[0], mesh.lo[1] + y * step[1], mesh.lo[2] + z * step[2]};
           const std::optional<double> v = value_at(e, mesh.shape[cell], mesh.to_world.point(p), size);

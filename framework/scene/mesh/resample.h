@@ -15,8 +15,8 @@ struct ResampledMesh {
   std::vector<float> inside;  // 1 where a cell holds the point, else 0
 };
 
-/// The field of the cell that holds each grid point, found by Newton's method in its reference coordinates where it is not
-/// linear (residual 1e-10 of the cell); points on a face take one of its cells.
+/// The field of the cell that holds each grid point, found by Newton's method in its reference coordinates where it is
+/// not linear (residual 1e-10 of the cell); points on a face take one of its cells.
 ResampledMesh resample(const MeshField& mesh, const std::array<int, 3>& dims);
 
 }  // namespace dvrlab

@@ -22,8 +22,7 @@ class Resampled : public SamplerPlugin {
     KernelUnit unit;
     Vector3 scale;
     for (std::size_t a = 0; a < 3; ++a) scale[a] = (dims[a] - 1) / (mesh->hi[a] - mesh->lo[a]);
-    unit.uniforms = {Uniform::integer("resampled_nx", dims[0]),
-                     Uniform::integer("resampled_ny", dims[1]),
+    unit.uniforms = {Uniform::integer("resampled_nx", dims[0]), Uniform::integer("resampled_ny", dims[1]),
                      Uniform::integer("resampled_nz", dims[2]),
                      Uniform::vector("resampled_lo", mesh->lo[0], mesh->lo[1], mesh->lo[2]),
                      Uniform::vector("resampled_scale", scale[0], scale[1], scale[2])};
@@ -34,6 +33,7 @@ class Resampled : public SamplerPlugin {
 
 }  // namespace
 
-DVRLAB_PLUGIN_PLAIN("sampler", "resampled", "1.0", Resampled, "a mesh on a regular grid, for passes of light volumes", "")
+DVRLAB_PLUGIN_PLAIN("sampler", "resampled", "1.0", Resampled, "a mesh on a regular grid, for passes of light volumes",
+                    "")
 
 }  // namespace dvrlab::resampled
