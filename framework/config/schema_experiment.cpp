@@ -84,7 +84,8 @@ void add_experiment(const KeyPaths& paths, Schema& properties, Schema& definitio
   properties["reference"] = {
       {"description", "Name -> what differs from the case: the case that others are measured against."},
       {"type", "object"},
-      {"propertyNames", {{"pattern", "^[A-Za-z0-9_=,+][A-Za-z0-9._=,+-]*$"}, {"not", {{"enum", {"variant", "itself"}}}}}},
+      {"propertyNames",
+       {{"pattern", "^[A-Za-z0-9_=,+][A-Za-z0-9._=,+-]*$"}, {"not", {{"enum", {"variant", "itself"}}}}}},
       {"additionalProperties", refer("values")}};
   define_expectation(definitions);
   properties["expect"] = {

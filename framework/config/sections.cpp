@@ -309,7 +309,8 @@ std::vector<SectionType> declare() {
        {{"metric", text, "", nullptr, "",
          "A value of one of the metrics, e.g. psnr or psnr.r; of a case's own, e.g. light.min.", nothing},
         {"against", text, "", nullptr, "",
-         "A reference's name; variant: the first variant case; itself: values without comparison, of the light volume and "
+         "A reference's name; variant: the first variant case; itself: values without comparison, of the light volume "
+         "and "
          "times.",
          nothing},
         {"over", choice, "", "\"cases\"", "cases|views",

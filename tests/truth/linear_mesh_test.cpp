@@ -44,7 +44,9 @@ json ray_through(const std::string& cells, const json& model) {
 }
 
 RayIntegral truth_of(const json& config) {
-  const SegmentIntegral s = integrate_segment(scene_of(config).medium, value_at(0), value_at(length), length);
+  const Scene scene = scene_of(config);
+  const auto stored = [&](double t) { return (value_at(t) - scene.field->intercept) / scene.field->slope; };
+  const SegmentIntegral s = integrate_segment(scene.medium, stored(0), stored(length), length);
   RayIntegral truth;
   for (std::size_t c = 0; c < 3; ++c) {
     truth.I[c] = s.E[c] + s.P[c] + s.S[c];

@@ -13,7 +13,7 @@ constexpr Affects pixels = Affects::pixels;
 const Parameter parameters[] = {
     {"samples", integer, "", "64", "[2,16777216]", "Random walks per voxel and light.", pixels, "", "32"},
     {"components", choice, "", "\"sum\"", "sum|direct|scattered",
-     "What is counted: light that was scattered, that was not, or both.", pixels, "", "\"direct\""},
+     "What is counted: light that was scattered, that was not, or both.", pixels, "", "\"scattered\""},
     {"orders", integer, "", "0", "[0,1000000]", "Scatterings at the most; 0: any number.", pixels, "", "1",
      "components=sum|scattered"},
     {"albedo", number, "", "1", "[0,1]", "Part of the extinction that scatters.", pixels, "", "0.5",
@@ -21,7 +21,7 @@ const Parameter parameters[] = {
     {"phase", choice, "", "\"isotropic\"", "isotropic|henyey_greenstein", "Phase function.", pixels, "",
      "\"henyey_greenstein\"", "components=sum|scattered"},
     {"g", number, "", "0.5", "(-1,1)", "Mean cosine of the scattering angle; positive: forward.", pixels,
-     R"({"illumination":[{"phase":"henyey_greenstein"}]})", "-0.3", "phase=henyey_greenstein"},
+     R"({"illumination":{"phase":"henyey_greenstein"}})", "-0.3", "phase=henyey_greenstein"},
     {"environment", number, "", "0", "[0,inf)", "Light from all around the box, as a fluence relative to the lights'.",
      pixels, "", "0.5", "components=sum|scattered"},
     light_opacity_scale_key,
