@@ -118,6 +118,7 @@ struct LightCache::Run {
     common.add(sampler.plugin);
     common.add(sampler.uniforms);
     for (const Buffer& b : sampler.buffers) common.add(b, true);
+    common.add(job.kernel_folder);
     common.add(job.precision);
     common.add(job.light->rgb);
     common.add(job.light->lo);
@@ -192,8 +193,8 @@ void combine(const LightWork& work, const std::vector<std::vector<const LightVol
   const std::size_t points = out.size() / std::size_t(planes);
   const auto bias = static_cast<Real>(work.plan.bias), blend = static_cast<Real>(work.plan.blend);
   const Real one = 1;
-  parallel_ranges(points, 65536, [&](std::uint64_t begin, std::uint64_t end) {
-    std::vector<std::array<Real, 3>> sum(end - begin, std::array<Real, 3>{});
+  const auto combine_block = [&](std::uint64_t begin, std::uint64_t end, std::vector<std::array<Real, 3>>& sum) {
+    sum.assign(end - begin, std::array<Real, 3>{});
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const LightPart& part = work.plan.parts[p];
       const int channels = part.error ? 1 : parts[p].front()->grid.channels, first = part.first_light;
@@ -216,6 +217,11 @@ void combine(const LightWork& work, const std::vector<std::vector<const LightVol
     for (std::uint64_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < std::size_t(planes); ++k)
         out[k * points + i] = (one - blend) + blend * (bias + (one - bias) * sum[i - begin][k]);
+  };
+  constexpr std::uint64_t block = 4096;  // its sums stay in the cache
+  parallel_ranges(points, 65536, [&](std::uint64_t begin, std::uint64_t end) {
+    std::vector<std::array<Real, 3>> sum;
+    for (std::uint64_t i = begin; i < end; i += block) combine_block(i, std::min(i + block, end), sum);
   });
 }
 
@@ -242,6 +248,31 @@ std::shared_ptr<std::vector<float>> combined_error(const LightWork& work,
   return error;
 }
 
+std::vector<std::pair<std::string, double>> statistics_of(const LightVolume& volume) {
+  double sum = 0, square = 0, least = 1e300, most = -1e300;
+  for (const float x : *volume.values) {
+    sum += double(x);
+    square += double(x) * double(x);
+    least = std::min(least, double(x));
+    most = std::max(most, double(x));
+  }
+  const auto count = double(volume.values->size());
+  const double mean = sum / count;
+  std::vector<std::pair<std::string, double>> values = {
+      {"min", least},
+      {"max", most},
+      {"mean", mean},
+      {"deviation", std::sqrt(std::max(square / count - mean * mean, 0.0))}};
+  if (volume.error == nullptr) return values;
+  square = most = 0;
+  for (const float e : *volume.error) {
+    square += double(e) * double(e);
+    most = std::max(most, double(e));
+  }
+  values.insert(values.end(), {{"error_rms", std::sqrt(square / double(volume.error->size()))}, {"error_max", most}});
+  return values;
+}
+
 }  // namespace
 
 int light_planes(const LightWork& work) {
@@ -266,6 +297,9 @@ LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vecto
   Text t;
   for (const LightPart& p : work.plan.parts) {
     t.add(p.first_light);
+    t.add(p.clamp);
+    t.add(p.error);
+    t.add(p.color);
     for (const int s : p.stages) t.add(run.key[std::size_t(s)]);
   }
   for (const auto& color : work.color) t.add(color);
@@ -287,6 +321,7 @@ LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vecto
       combine(work, parts, v.grid.channels, *v.values);
     }
     v.error = combined_error(work, parts, std::size_t(v.grid.points()));
+    v.statistics = statistics_of(v);
     run.times.back() = {"light combine", clock.wall(), clock.cpu()};
     kept_.emplace(key, std::move(v));
   }

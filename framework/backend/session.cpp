@@ -1,39 +1,8 @@
 // What every backend's session does before it marches: the light volume.
-#include <algorithm>
-#include <cmath>
-
 #include "framework/backend/light_cache.h"
 #include "framework/interfaces/error.h"
 
 namespace dvrlab {
-namespace {
-
-std::vector<std::pair<std::string, double>> statistics_of(const LightVolume& volume) {
-  double sum = 0, square = 0, least = 1e300, most = -1e300;
-  for (const float x : *volume.values) {
-    sum += double(x);
-    square += double(x) * double(x);
-    least = std::min(least, double(x));
-    most = std::max(most, double(x));
-  }
-  const auto count = double(volume.values->size());
-  const double mean = sum / count;
-  std::vector<std::pair<std::string, double>> values = {
-      {"min", least},
-      {"max", most},
-      {"mean", mean},
-      {"deviation", std::sqrt(std::max(square / count - mean * mean, 0.0))}};
-  if (volume.error == nullptr) return values;
-  square = most = 0;
-  for (const float e : *volume.error) {
-    square += double(e) * double(e);
-    most = std::max(most, double(e));
-  }
-  values.insert(values.end(), {{"error_rms", std::sqrt(square / double(volume.error->size()))}, {"error_max", most}});
-  return values;
-}
-
-}  // namespace
 
 BackendSession::BackendSession() = default;
 BackendSession::~BackendSession() = default;
@@ -64,7 +33,7 @@ void BackendSession::render(const FrameJob& job, FrameResult& result) {
   std::vector<PhaseTime> times;
   const LightVolume volume = illuminate(job, times);
   march(lit(job, volume), result);
-  result.light = statistics_of(volume);
+  result.light = volume.statistics;
   result.times.insert(result.times.begin(), times.begin(), times.end());
 }
 

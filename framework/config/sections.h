@@ -26,8 +26,8 @@ struct SectionType {
   void (*check)(const ParameterSet& keys) = nullptr;
 };
 
-/// Lights that are shaded at once.
-inline constexpr std::size_t most_lights = 4;
+/// Lights of a case; those that local shading can take.
+inline constexpr std::size_t most_lights = 16, most_shading_lights = 4;
 
 /// All of them. `data` and `optical_model` are the keys that every plugin of that kind shares.
 const std::vector<SectionType>& section_types();

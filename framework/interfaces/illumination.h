@@ -43,6 +43,7 @@ struct LightSetting {
   std::array<int, 3> dims;    // of the light volume: the grid of the data, where they have one
   Affine to_world;            // sampler coordinates -> world relative to the box centre
   double voxel;               // smallest spacing of that grid, world units
+  double box_diagonal;        // no way to a light is longer in the box
   std::vector<Light> light;   // directional and point lights; at least one
   bool rgb;                   // extinction differs between channels: one light per volume, a channel per colour
   double value_lo, value_hi;  // values of the first and the last entry of light_tau, in the transfer functions' unit

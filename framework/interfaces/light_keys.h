@@ -95,9 +95,25 @@ inline std::vector<LightDirection> light_directions(const ParameterSet& p, const
                           p.text("weights") == "solid_angle", toward);
 }
 
-/// Tables of a stage, in fp32 and in fp64: single numbers, groups of four. An empty one has no binding.
-Buffer reals(std::string name, std::vector<double> values);
-Buffer vectors(std::string name, std::vector<double> values);
+/// A pass that fills a light volume, with the keys above.
+class LightPass : public IlluminationPlugin {
+ public:
+  bool fills_light_volume() const override { return true; }
+  int resolution(const ParameterSet& p) const override { return static_cast<int>(p.integer("resolution")); }
+};
+
+/// A plan without stages, with what the keys above say.
+inline LightPlan light_plan(const ParameterSet& p) {
+  LightPlan plan;
+  plan.opacity_scale = p.number("light_opacity_scale");
+  plan.bias = p.number("bias");
+  plan.blend = p.number("blend");
+  return plan;
+}
+
+/// Software GPUs end all loops of an invocation once they have made 65535 rounds together, without a word. A stage
+/// whose voxels may come near that says so (LightStage::long_loops).
+inline constexpr double most_rounds = 16384;
 
 /// Throws InputError where a pass has no light.
 inline void require_lights(const ParameterSet& p, const LightSetting& setting) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/interfaces/kernel_unit.h"
@@ -65,8 +66,9 @@ struct LightPlan {
 struct LightVolume {
   LightGrid grid;
   std::shared_ptr<std::vector<float>> values;
-  std::shared_ptr<std::vector<double>> values64;  // empty pointer unless fp64
-  std::shared_ptr<std::vector<float>> error;      // per point: the standard error of `values`; empty pointer without
+  std::shared_ptr<std::vector<double>> values64;                // empty pointer unless fp64
+  std::vector<std::pair<std::string, double>> statistics = {};  // FrameResult::light
+  std::shared_ptr<std::vector<float>> error;  // per point: the standard error of `values`; empty pointer without
 };
 
 /// Everything that fills the light volume of a frame.

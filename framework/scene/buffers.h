@@ -17,10 +17,15 @@ Buffer make_buffer(std::string name, Element element, std::vector<T> values, std
   return {std::move(name), element, std::shared_ptr<const void>(owner, owner->data()), count, nullptr};
 }
 
-/// Numbers of f32 for kernels in fp32 and, the same, in fp64.
-inline Buffer real_buffer(std::string name, const std::vector<float>& values) {
-  const auto owner = std::make_shared<std::vector<double>>(values.begin(), values.end());
-  Buffer buffer = make_buffer(std::move(name), Element::f32, values, values.size());
+/// Single numbers for kernels in fp32, where they are rounded, and in fp64. Without any there is no binding on a GPU;
+/// the cpu finds two zeros.
+inline Buffer real_buffer(std::string name, std::vector<double> values) {
+  const std::uint64_t count = values.size();
+  if (values.empty()) values.assign(2, 0.0);
+  std::vector<float> rounded(values.size());
+  std::transform(values.begin(), values.end(), rounded.begin(), [](double x) { return static_cast<float>(x); });
+  Buffer buffer = make_buffer(std::move(name), Element::f32, std::move(rounded), count);
+  const auto owner = std::make_shared<std::vector<double>>(std::move(values));
   buffer.data64 = {owner, owner->data()};
   return buffer;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "framework/config/sections.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
 #include "framework/scene/camera.h"
@@ -50,6 +51,9 @@ void check_passes(const ResolvedCase& c, const Registry& registry, Problems& pro
                    first->type + "); give one");
     first = &s;
   }
+  if (c.lights.size() > most_shading_lights && (shading != nullptr || volume == nullptr))
+    problems.add("lights: found " + std::to_string(c.lights.size()) + " lights; at most " +
+                 std::to_string(most_shading_lights) + " are possible but for a pass of light volumes alone");
 }
 
 }  // namespace

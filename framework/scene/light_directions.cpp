@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/interfaces/light_keys.h"
-#include "framework/scene/buffers.h"
 #include "framework/scene/vector.h"
 
 namespace dvrlab {
@@ -104,19 +102,6 @@ std::vector<LightDirection> light_directions(Solid solid, int subdivisions, bool
   }
   spread(directions);
   return directions;
-}
-
-Buffer vectors(std::string name, std::vector<double> values) { return vec4_buffer(std::move(name), std::move(values)); }
-
-Buffer reals(std::string name, std::vector<double> values) {
-  const std::uint64_t count = values.size();
-  if (values.empty()) values.assign(2, 0.0);
-  std::vector<float> rounded(values.size());
-  std::transform(values.begin(), values.end(), rounded.begin(), [](double x) { return static_cast<float>(x); });
-  Buffer b = make_buffer(std::move(name), Element::f32, std::move(rounded), count);
-  const auto owner = std::make_shared<std::vector<double>>(std::move(values));
-  b.data64 = {owner, owner->data()};
-  return b;
 }
 
 }  // namespace dvrlab

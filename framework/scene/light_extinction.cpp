@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "framework/interfaces/light_keys.h"
 #include "framework/scene/buffers.h"
 
 namespace dvrlab {
@@ -82,8 +81,8 @@ void add_light_extinction(const Medium& medium, const MediumTableOptions& option
                         Uniform::integer("light_tau_entries", options.entries),
                         Uniform::constant_integer("light_surfaces", surfaces ? 1 : 0),
                         Uniform::constant_integer("light_diracs", int(dirac.size() / 4))});
-  unit.buffers.push_back(reals("light_tau", std::move(tau)));
-  unit.buffers.push_back(reals("light_surface", std::move(surface)));
+  unit.buffers.push_back(real_buffer("light_tau", std::move(tau)));
+  unit.buffers.push_back(real_buffer("light_surface", std::move(surface)));
   unit.buffers.push_back(vec4_buffer("light_dirac", std::move(dirac)));
 }
 

@@ -112,7 +112,15 @@ int LightSetting::channels_from(int first_light) const {
 std::uint64_t LightWork::bytes() const {
   std::uint64_t numbers = 3;  // per point of the light volume itself, at the most
   numbers *= std::uint64_t(dims[0]) * std::uint64_t(dims[1]) * std::uint64_t(dims[2]);
-  for (const LightStage& s : plan.stages) numbers += s.grid.numbers();
+  for (std::size_t k = 0; k < plan.stages.size(); ++k) {
+    const LightStage& s = plan.stages[k];
+    // Of a chain of one kernel two are there at once: the one that is filled and the one before it.
+    const bool chained = std::any_of(s.reads.begin(), s.reads.end(), [&](const StageRead& r) {
+      return r.stage >= 0 && plan.stages[std::size_t(r.stage)].kernel == s.kernel;
+    });
+    const bool dropped = chained && k + 1 < plan.stages.size() && plan.stages[k + 1].kernel == s.kernel;
+    if (!dropped) numbers += s.grid.numbers();
+  }
   return numbers * sizeof(float);
 }
 
@@ -129,6 +137,7 @@ std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& reg
   setting.dims = light_dims(field, plugin.resolution(pass->parameters));
   setting.to_world = field.to_world;
   setting.to_world.t = minus(setting.to_world.t, frame.centre());
+  setting.box_diagonal = length(field.to_world.vector(minus(field.hi, field.lo)));
   setting.voxel = smallest_spacing(field, grid_step(field, setting.dims));
   for (const Light& light : shading.light) setting.light.push_back(without_head(light, c.camera, frame));
   setting.rgb = medium.terms().rgb();

@@ -56,10 +56,8 @@ TEST_P(LightFault, IsCaught) {
                                               fault.kernel, fault.from, fault.to);
       if (framework) job.kernel_folder = folder->path();
       auto work = std::make_shared<LightWork>(*job.light);
-      for (LightStage& s : work->plan.stages) {
+      for (LightStage& s : work->plan.stages)
         if (!framework) s.folder = folder->path();
-        s.uniforms.push_back(Uniform::integer("planted_fault", 1));  // volumes without it are kept
-      }
       job.light = work;
     });
     std::printf("%s: largest difference of the light %.3e\n", fault.name.c_str(), largest(right, wrong));

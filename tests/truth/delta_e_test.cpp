@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/interfaces/metric.h"
+#include "framework/metric/difference_image.h"
 #include "framework/metric/luv.h"
 #include "tests/truth/truth_test.h"
 
@@ -49,6 +50,26 @@ TEST(DeltaE, GoldenColours) {
   EXPECT_NEAR(measured[1].second, number(e["rate6"]), 1e-12);
   EXPECT_NEAR(measured[2].second, number(e["rms"]), 1e-9);
   EXPECT_LE(measured[1].second, std::pow(measured[0].second / 6, 2));
+}
+
+// What an eye could not see is grey, the rest has a colour; the scale below begins in grey and ends in red.
+TEST(DeltaE, PictureMarksTheJustNoticeable) {
+  FrameImage a, b;
+  a.width = b.width = 2;
+  a.height = b.height = 1;
+  a.color = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
+  b.color = {0.502f, 0.5f, 0.5f, 0.6f, 0.5f, 0.5f};
+  a.trans = b.trans = std::vector<float>(6, 0.0f);
+  ASSERT_LT(luv_distance({0.5, 0.5, 0.5}, {0.502, 0.5, 0.5}, false), 1);
+  ASSERT_GT(luv_distance({0.5, 0.5, 0.5}, {0.6, 0.5, 0.5}, false), 1);
+  const FrameImage d = difference_image(a, b, false);
+  EXPECT_EQ(d.width, 2);
+  EXPECT_GT(d.height, 1) << "the scale";
+  const auto grey = [&](std::size_t pixel) {
+    return d.color[3 * pixel] == d.color[3 * pixel + 1] && d.color[3 * pixel] == d.color[3 * pixel + 2];
+  };
+  EXPECT_TRUE(grey(0));
+  EXPECT_FALSE(grey(1));
 }
 
 }  // namespace

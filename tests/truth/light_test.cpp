@@ -284,6 +284,45 @@ TEST_P(Light, LightsAddUp) {
   })
 }
 
+// More lights than a stage has channels: a second pass, the same sum. Local shading takes four.
+TEST_P(Light, ManyLights) {
+  json config = cloud(piecewise(4, 4));
+  std::vector<json> lights;
+  for (int k = 0; k < 6; ++k)
+    lights.push_back(
+        {{"type", "directional"}, {"direction", {std::cos(k), std::sin(k), 0.5}}, {"color", {0.1, 0.1, 0.1}}});
+  config["lights"] = lights;
+  SKIP_WHEN_NOT_SUPPORTED({
+    const LightVolume all = volume(config);
+    std::vector<float> sum(all.values->size());
+    for (const json& light : lights) {
+      config["lights"] = {light};
+      const LightVolume one = volume(config);
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += (*one.values)[k];
+    }
+    for (std::size_t k = 0; k < sum.size(); ++k) ASSERT_NEAR(sum[k], (*all.values)[k], 2e-6);
+  })
+  config["lights"] = lights;
+  config["illumination"].push_back({{"type", "blinn_phong"}});
+  EXPECT_THROW(scene_of(config), InputError);
+}
+
+// Loops that a software GPU would cut short are refused there, and filled on the cpu.
+TEST_P(Light, LongLoopsAreWholeOrRefused) {
+  json config = cloud({{"type", "shadow_full"}, {"step", 0.0005}});
+  config["data"]["size"] = {4, 4, 4};
+  const bool gpu = !GetParam().name.starts_with("cpu");
+  try {
+    const LightVolume v = volume(config);
+    EXPECT_FALSE(gpu && v.values->empty());
+    config["illumination"][0]["step"] = 0.01;
+    const LightVolume coarse = volume(config);
+    for (std::size_t k = 0; k < v.values->size(); ++k) ASSERT_NEAR((*v.values)[k], (*coarse.values)[k], 1e-3);
+  } catch (const NotSupported& reason) {
+    EXPECT_TRUE(gpu) << reason.what();
+  }
+}
+
 // RGB extinction: every channel is a grey medium of its own.
 TEST_P(Light, ColouredExtinction) {
   json config = cloud(scattered(5, 2));

@@ -137,6 +137,37 @@ TEST(PathTraced, PhysicalScatteringIsOneOrder) {
   }
 }
 
+// Light that is scattered once more: the sum of two orders, up to what voxels and directions leave.
+TEST(PathTraced, TwoOrdersAreTheIterated) {
+  json pass = {{"type", "local_piecewise"},
+               {"normalisation", "physical"},
+               {"albedo", 0.8},
+               {"radius", 24},
+               {"samples", 48},
+               {"subdivisions", 2},
+               {"segment", 30},
+               {"segment_samples", 96},
+               {"shadow_ratio", {1, 1, 1}},
+               {"weights", "solid_angle"},
+               {"orders", 2}};
+  const json random = walks(2048, {{"components", "scattered"}, {"orders", 2}, {"albedo", 0.8}});
+  const LightVolume truth = illuminate(cloud(random), cpu);
+  const auto relative = [&](const LightVolume& v) {
+    double difference = 0, sum = 0;
+    for (std::size_t k = 0; k < truth.values->size(); ++k) {
+      difference += double((*v.values)[k]) - double((*truth.values)[k]);
+      sum += double((*truth.values)[k]);
+    }
+    return difference / sum;
+  };
+  const double two = relative(illuminate(cloud(pass), cpu));
+  pass["orders"] = 1;
+  const double one = relative(illuminate(cloud(pass), cpu));
+  std::printf("two orders: %.2f %% off, one order instead: %.1f %%\n", 100 * two, 100 * one);
+  EXPECT_LT(std::abs(two), 0.02);
+  EXPECT_LT(one, -0.1) << "negative control: the second order is seen";
+}
+
 // More walks, a smaller error: by the square root of their number.
 TEST(PathTraced, TheErrorFallsWithTheRoot) {
   const auto rms = [&](int samples) {

@@ -1,6 +1,7 @@
 // Local ambient occlusion (Hernell, Ljung, Ynnerman 2007): light from a sphere around every voxel, without any light
 // source.
 #include "framework/interfaces/light_keys.h"
+#include "framework/scene/buffers.h"
 
 namespace dvrlab::local_ambient_occlusion {
 namespace {
@@ -10,15 +11,10 @@ const Parameter parameters[] = {
     light_opacity_scale_key, light_bias_key,    light_blend_key, light_resolution_key,
 };
 
-class LocalAmbientOcclusion : public IlluminationPlugin {
+class LocalAmbientOcclusion : public LightPass {
  public:
-  bool fills_light_volume() const override { return true; }
-  int resolution(const ParameterSet& p) const override { return static_cast<int>(p.integer("resolution")); }
   LightPlan plan(const ParameterSet& p, const LightSetting& s) const override {
-    LightPlan plan;
-    plan.opacity_scale = p.number("light_opacity_scale");
-    plan.bias = p.number("bias");
-    plan.blend = p.number("blend");
+    LightPlan plan = light_plan(p);
     std::vector<double> table;
     for (const LightDirection& d : light_directions(p, {0, 0, 1})) {
       const Vector3 toward = s.sampler_direction(d.omega);
@@ -33,7 +29,8 @@ class LocalAmbientOcclusion : public IlluminationPlugin {
     stage.uniforms = {Uniform::integer("local_ambient_occlusion_sphere_directions", static_cast<int>(table.size() / 4)),
                       Uniform::integer("local_ambient_occlusion_sphere_samples", samples),
                       Uniform::real("local_ambient_occlusion_sphere_part", p.number("radius") * s.voxel / samples)};
-    stage.buffers = {vectors("local_ambient_occlusion_sphere_direction", table)};
+    stage.long_loops = static_cast<double>(table.size()) / 4 * samples > most_rounds;
+    stage.buffers = {vec4_buffer("local_ambient_occlusion_sphere_direction", table)};
     plan.stages.push_back(std::move(stage));
     plan.parts.push_back({{0}, -1});
     return plan;

@@ -5,6 +5,7 @@
 
 #include "framework/interfaces/light_keys.h"
 #include "framework/interfaces/transfer_function.h"
+#include "framework/scene/buffers.h"
 
 namespace dvrlab::local_piecewise {
 namespace {
@@ -100,9 +101,7 @@ class Planner {
   }
 
   LightPlan plan() {
-    plan_.opacity_scale = p_.number("light_opacity_scale");
-    plan_.bias = p_.number("bias");
-    plan_.blend = p_.number("blend");
+    plan_ = light_plan(p_);
     const int step = s_.lights_per_volume();
     for (int first = 0; first < static_cast<int>(s_.light.size()); first += step) {
       const int direct = add_direct(first);
@@ -115,7 +114,8 @@ class Planner {
   }
 
  private:
-  int add(const char* kernel, const std::string& label, const std::array<int, 3>& dims, int first,
+  /// `rounds`: of a voxel's loops, per channel.
+  int add(const char* kernel, const std::string& label, const std::array<int, 3>& dims, int first, double rounds,
           std::vector<Uniform> uniforms, std::vector<StageRead> reads, std::vector<Buffer> buffers = {}) {
     LightStage stage;
     stage.kernel = std::string("local_piecewise_") + kernel;
@@ -123,6 +123,7 @@ class Planner {
         label + (s_.light.size() > std::size_t(s_.lights_per_volume()) ? " " + std::to_string(first + 1) : "");
     stage.grid = {dims, s_.channels_from(first)};
     stage.first_light = first;
+    stage.long_loops = rounds * stage.grid.channels > most_rounds;
     stage.uniforms = std::move(uniforms);
     stage.reads = std::move(reads);
     stage.buffers = std::move(buffers);
@@ -132,15 +133,15 @@ class Planner {
 
   int add_direct(int first) {
     const bool own = p_.text("first_segment") == "piecewise";
-    const int segments = add("segment", "segment", s_.dims, first,
+    const int segments = add("segment", "segment", s_.dims, first, segment_samples_,
                              {Uniform::real("local_piecewise_segment_length", segment_),
                               Uniform::integer("local_piecewise_segment_samples", segment_samples_)},
                              {});
-    const int shadow =
-        add("shadow", "shadow", coarse_, first, {Uniform::real("local_piecewise_shadow_length", segment_)},
-            {{"local_piecewise_shadow_segments", segments, true}});
+    const int shadow = add("shadow", "shadow", coarse_, first, s_.box_diagonal / segment_,
+                           {Uniform::real("local_piecewise_shadow_length", segment_)},
+                           {{"local_piecewise_shadow_segments", segments, true}});
     return add(
-        "direct", "direct", s_.dims, first,
+        "direct", "direct", s_.dims, first, 0,
         {Uniform::real("local_piecewise_direct_length", segment_),
          Uniform::constant_integer("local_piecewise_direct_first", own ? 1 : 0)},
         {{"local_piecewise_direct_segments", own ? segments : -1}, {"local_piecewise_direct_shadow", shadow, true}});
@@ -180,21 +181,20 @@ class Planner {
   }
 
   int add_order(int first, int order, int light, int more) {
-    // A driver of a software GPU ends long loops without a word; so many rounds are far from it.
-    constexpr int most_rounds = 16384;
     const auto samples = static_cast<int>(p_.integer("samples"));
     const int count = directions_done_;
-    const int at_once = p_.boolean("progressive") ? 1 : std::clamp(most_rounds / samples, 1, count);
+    const int at_once = p_.boolean("progressive") ? 1 : std::clamp(static_cast<int>(most_rounds) / samples, 1, count);
     int before = -1;
     for (int from = 0; from < count; from += at_once) {
       const int to = std::min(from + at_once, count);
       std::string label = order > 1 ? "scatter, order " + std::to_string(order) : "scatter";
       if (at_once < count) label += ", directions " + std::to_string(from + 1) + " to " + std::to_string(to);
-      before = add("scatter", label, s_.dims, first, scatter_uniforms(from, to, more >= 0, order),
-                   {{"local_piecewise_scatter_light", light},
-                    {"local_piecewise_scatter_more", more},
-                    {"local_piecewise_scatter_before", before}},
-                   {vectors("local_piecewise_scatter_direction", table_), reals("local_piecewise_scatter_gs", gs_)});
+      before = add(
+          "scatter", label, s_.dims, first, 0, scatter_uniforms(from, to, more >= 0, order),
+          {{"local_piecewise_scatter_light", light},
+           {"local_piecewise_scatter_more", more},
+           {"local_piecewise_scatter_before", before}},
+          {vec4_buffer("local_piecewise_scatter_direction", table_), real_buffer("local_piecewise_scatter_gs", gs_)});
     }
     return before;
   }
@@ -237,10 +237,8 @@ class Planner {
   LightPlan plan_;
 };
 
-class LocalPiecewise : public IlluminationPlugin {
+class LocalPiecewise : public LightPass {
  public:
-  bool fills_light_volume() const override { return true; }
-  int resolution(const ParameterSet& p) const override { return static_cast<int>(p.integer("resolution")); }
   void check(const ParameterSet& p) const override {
     lobes_of(p);
     if (p.text("components") == "direct" || p.text("phase") == "isotropic" || p.integer("orders") == 1) return;

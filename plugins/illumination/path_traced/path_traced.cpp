@@ -35,9 +35,7 @@ class Planner {
   Planner(const ParameterSet& p, const LightSetting& s) : p_(p), s_(s) {}
 
   LightPlan plan() {
-    plan_.opacity_scale = p_.number("light_opacity_scale");
-    plan_.bias = p_.number("bias");
-    plan_.blend = p_.number("blend");
+    plan_ = light_plan(p_);
     for (int light = 0; light < static_cast<int>(s_.light.size()); ++light)
       for (int color = 0; color < (s_.rgb ? 3 : 1); ++color) add(light, color);
     return std::move(plan_);
@@ -89,10 +87,8 @@ class Planner {
   LightPlan plan_;
 };
 
-class PathTraced : public IlluminationPlugin {
+class PathTraced : public LightPass {
  public:
-  bool fills_light_volume() const override { return true; }
-  int resolution(const ParameterSet& p) const override { return static_cast<int>(p.integer("resolution")); }
   LightPlan plan(const ParameterSet& p, const LightSetting& s) const override {
     require_lights(p, s);
     if (s.surfaces)

@@ -14,22 +14,18 @@ const Parameter parameters[] = {
     light_resolution_key,
 };
 
-class ShadowFull : public IlluminationPlugin {
+class ShadowFull : public LightPass {
  public:
-  bool fills_light_volume() const override { return true; }
-  int resolution(const ParameterSet& p) const override { return static_cast<int>(p.integer("resolution")); }
   LightPlan plan(const ParameterSet& p, const LightSetting& s) const override {
     require_lights(p, s);
-    LightPlan plan;
-    plan.opacity_scale = p.number("light_opacity_scale");
-    plan.bias = p.number("bias");
-    plan.blend = p.number("blend");
+    LightPlan plan = light_plan(p);
     for (int first = 0; first < static_cast<int>(s.light.size()); first += s.lights_per_volume()) {
       LightStage stage;
       stage.kernel = "shadow_full_march";
       stage.label = "march";
       stage.grid = {s.dims, s.channels_from(first)};
       stage.first_light = first;
+      stage.long_loops = s.box_diagonal / (p.number("step") * s.voxel) * stage.grid.channels > most_rounds;
       stage.uniforms = {Uniform::real("shadow_full_march_step", p.number("step") * s.voxel),
                         Uniform::real("shadow_full_march_inv_step", 1 / (p.number("step") * s.voxel))};
       plan.parts.push_back({{static_cast<int>(plan.stages.size())}, first});

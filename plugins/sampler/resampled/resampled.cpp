@@ -7,14 +7,13 @@
 namespace dvrlab::resampled {
 namespace {
 
-constexpr int longest = 128;  // points along the longest side, where nobody says how many
-
 class Resampled : public SamplerPlugin {
  public:
-  std::uint64_t bytes_needed(const Field&) const override {
-    return std::uint64_t(longest) * longest * longest * 2 * (sizeof(float) + sizeof(double));
+  KernelUnit bind(const Field& field) const override {
+    throw InputError(
+        "data.sampler: \"resampled\" is chosen by passes of light volumes, whose `resolution` is its grid; " +
+        field.source + " has a sampler of its own, leave out data.sampler");
   }
-  KernelUnit bind(const Field& field) const override { return bind_to(field, {longest, longest, longest}); }
   KernelUnit bind_to(const Field& field, const std::array<int, 3>& dims) const override {
     const auto* mesh = dynamic_cast<const MeshField*>(&field);
     if (mesh == nullptr) throw InputError("sampler resampled: " + field.source + " is no mesh");
@@ -26,7 +25,8 @@ class Resampled : public SamplerPlugin {
                      Uniform::integer("resampled_nz", dims[2]),
                      Uniform::vector("resampled_lo", mesh->lo[0], mesh->lo[1], mesh->lo[2]),
                      Uniform::vector("resampled_scale", scale[0], scale[1], scale[2])};
-    unit.buffers = {real_buffer("resampled_value", r.value), real_buffer("resampled_inside", r.inside)};
+    unit.buffers = {real_buffer("resampled_value", {r.value.begin(), r.value.end()}),
+                    real_buffer("resampled_inside", {r.inside.begin(), r.inside.end()})};
     return unit;
   }
 };
