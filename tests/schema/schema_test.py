@@ -76,7 +76,7 @@ WRONG = {
     "unknown key of a zip": {"axes": {"permutation": {"zip": [{"sampling.stepp": [1, 2]}]}}},
     "empty zip": {"axes": {"permutation": {"zip": []}}},
     "zip of nothing": {"axes": {"permutation": {"zip": [{}]}}},
-    "five lights": {"lights": [{"type": "head"}] * 5},
+    "seventeen lights": {"lights": [{"type": "head"}] * 17},
     "range of one value": {"axes": {"permutation": {"sampling.step": {"lin": [1, 2, 1]}}}},
     "range of half a value": {"axes": {"permutation": {"sampling.step": {"lin": [1, 2, 2.5]}}}},
     "zip that is no list": {"axes": {"permutation": {"zip": {"seed": [1, 2]}}}},
