@@ -40,11 +40,13 @@ std::vector<PhaseTime> take_light(std::vector<PhaseTime>& times) {
   return light;
 }
 
-/// What a case with a light volume has without any comparison (own_values()).
+/// What a case with a light volume or with blocks has without any comparison (own_values()).
 Measure own_measure(const std::vector<std::pair<std::string, double>>& light,
+                    const std::vector<std::pair<std::string, double>>& blocks,
                     const std::vector<PhaseStatistics>& times) {
   Measure m{own_reference, "light", {}, false};
   for (const auto& [name, value] : light) m.values.emplace_back("light." + name, value);
+  for (const auto& [name, value] : blocks) m.values.emplace_back("blocks." + name, value);
   double filling = 0, direct = 0, march = 0;
   for (const PhaseStatistics& t : times) {
     if (t.phase.starts_with("light ")) filling += t.median;
@@ -71,6 +73,7 @@ nlohmann::json scene_section(const Scene& s, double seconds) {
       {"seconds", seconds},
       {"phases", std::move(phases)}};
   if (const auto* grid = dynamic_cast<const GridField*>(&f)) section["dims"] = grid->dims;
+  for (const auto& [name, value] : s.blocks) section["blocks"][name] = value;
   return section;
 }
 
@@ -149,7 +152,8 @@ FrameImage CaseRenderer::render(const ResolvedCase& c, const Scene& scene, CaseR
   }
   record.times = phase_statistics(repeats);
   record.counters = frame.counters;
-  if (!frame.light.empty()) record.measures.push_back(own_measure(frame.light, record.times));
+  if (!frame.light.empty() || !scene.blocks.empty())
+    record.measures.push_back(own_measure(frame.light, scene.blocks, record.times));
   record.counters.table_fetches = record.counters.samples * static_cast<std::uint64_t>(scene.job.table_fetches);
   return averaged(std::move(frame.image), scene.rays_per_side);
 }

@@ -19,6 +19,7 @@ template <class Real>
 void fill_rows(const StageJob& job, const std::string& isa, int threads, ModuleCache& modules, Real* out) {
   Bindings field;
   field.add(job.sampler);
+  field.add(job.rays);  // where its blocks are
   const ModuleFrame<Real> sampler(modules.get(job.sampler.folder, job.sampler.plugin, isa), field.view(),
                                   DVR_FEATURE_VALUES);
   const auto& calls = sampler.calls().sampler;

@@ -62,12 +62,13 @@ StageJob stage_job(const FrameJob& job, const LightStage& stage) {
   s.stage.uniforms = stage.uniforms;
   s.stage.buffers = stage.buffers;
   std::array<double, 3> step;
-  for (std::size_t a = 0; a < 3; ++a) step[a] = (work.hi[a] - work.lo[a]) / (stage.grid.dims[a] - 1);
+  for (std::size_t a = 0; a < 3; ++a) step[a] = (work.hi[a] - work.lo[a]) / std::max(stage.grid.dims[a] - 1, 1);
   s.stage.uniforms.insert(
       s.stage.uniforms.end(),
       {Uniform::integer("stage_nx", stage.grid.dims[0]), Uniform::integer("stage_ny", stage.grid.dims[1]),
        Uniform::integer("stage_nz", stage.grid.dims[2]),
        Uniform::constant_integer("stage_channels", stage.grid.channels),
+       Uniform::constant_integer("stage_blocks", stage.grid.blocks ? 1 : 0),
        Uniform::constant_integer("stage_light", stage.first_light),
        Uniform::vector("stage_lo", work.lo[0], work.lo[1], work.lo[2]),
        Uniform::vector("stage_step", step[0], step[1], step[2]),
@@ -225,6 +226,13 @@ void combine(const LightWork& work, const std::vector<std::vector<const LightVol
   });
 }
 
+/// Light does not jump either where blocks of different levels meet.
+template <class Real>
+void conform_planes(const LightWork& work, std::vector<Real>& values) {
+  if (work.blocks == nullptr) return;
+  for (std::size_t at = 0; at < values.size(); at += work.blocks->samples) conform(*work.blocks, values.data() + at);
+}
+
 /// Standard error of combine()'s result, of the channels together; nothing where no part has one.
 std::shared_ptr<std::vector<float>> combined_error(const LightWork& work,
                                                    const std::vector<std::vector<const LightVolume*>>& parts,
@@ -310,15 +318,17 @@ LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vecto
   if (!kept_.contains(key)) {
     const PhaseClock clock;
     LightVolume v;
-    v.grid = {work.dims, light_planes(work)};
+    v.grid = light_points(work.dims, work.blocks.get(), light_planes(work));
     v.values = std::make_shared<std::vector<float>>(v.grid.numbers());
     if (job.precision == Precision::fp64) {
       v.values64 = std::make_shared<std::vector<double>>(v.grid.numbers());
       combine(work, parts, v.grid.channels, *v.values64);
+      conform_planes(work, *v.values64);
       std::transform(v.values64->begin(), v.values64->end(), v.values->begin(),
                      [](double x) { return static_cast<float>(x); });
     } else {
       combine(work, parts, v.grid.channels, *v.values);
+      conform_planes(work, *v.values);
     }
     v.error = combined_error(work, parts, std::size_t(v.grid.points()));
     v.statistics = statistics_of(v);

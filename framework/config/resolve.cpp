@@ -76,6 +76,8 @@ class CaseResolver {
     top.also = top_sections();
     c.top = resolve_keys(tree_, "", top, problems_, c.config);
     c.data = plugin_section("data", "data", "", true, c.config["data"]);
+    if (tree_.find("sampler") != nullptr)
+      c.sampler = plugin_section("sampler", "sampler", "", false, c.config["sampler"]);
     c.optical_model = plugin_section("optical_model", "optical_model", "", true, c.config["optical_model"]);
     c.estimator = plugin_section("estimator", "estimator", "", true, c.config["estimator"]);
     c.backend = plugin_section("backend", "backend", "cpu", true, c.config["backend"]);

@@ -18,6 +18,7 @@ struct SectionSource {
 };
 constexpr SectionSource sources[] = {
     {"data", "data", "", false, "The scalar field."},
+    {"sampler", "sampler", "", false, "What reads the data at positions; left out: the one that the data name."},
     {"optical_model", "optical_model", "", false, "Turns transfer functions into a medium."},
     {"estimator", "estimator", "", false, "Integrates the medium over one segment."},
     {"lights", "", "", true, "At most 4 lights; by default one at the eye."},

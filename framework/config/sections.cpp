@@ -139,9 +139,7 @@ std::vector<SectionType> declare() {
         {"reconstruction", choice, "", "\"exact\"", "exact",
          "Interpolation between grid points: trilinear in fp32 by our own code.", pixels},
         {"gradient", choice, "", "\"on_the_fly\"", "on_the_fly",
-         "Where gradients come from: computed at every sample that needs one.", speed},
-        {"sampler", text, "", "\"\"", "", "The sampler that reads the data; empty: the one that the data names.",
-         pixels}}},
+         "Where gradients come from: computed at every sample that needs one.", speed}}},
       {"optical_model",
        "",
        "Keys that all optical models share.",
@@ -367,7 +365,7 @@ std::vector<std::string> types_of(const std::string& section) {
 
 const std::vector<std::string>& top_sections() {
   static const std::vector<std::string> names = {
-      "include",  "data",  "optical_model", "estimator", "lights", "illumination", "camera",  "clip",
+      "include",  "data",  "sampler", "optical_model", "estimator", "lights", "illumination", "camera",  "clip",
       "sampling", "image", "limits",        "backend",   "axes",   "reference",    "metrics", "expect"};
   return names;
 }

@@ -43,6 +43,9 @@ struct Field {
 
 enum class VoxelType { u8, i8, u16, i16, f32 };
 
+struct BlockedField;  // framework/interfaces/blocks.h
+struct ArrangeInput;
+
 /// A regular grid, x fastest. Voxel values sit at grid points; the domain is the box of the grid points.
 struct GridField : Field {
   std::array<int, 3> dims{0, 0, 0};  // each at least 2
@@ -52,6 +55,8 @@ struct GridField : Field {
   std::uint64_t bytes() const;
   double at(int i, int j, int k) const;            // stored value
   mutable std::shared_ptr<const void> macrocells;  // the scene stage's value ranges, made at the first use
+  mutable std::shared_ptr<const BlockedField> blocked;  // the last arrangement in blocks, and what it was made for
+  mutable std::string blocked_key;
 };
 
 /// A field that is evaluated by its formula at every sample; value and gradient are exact up to rounding.
@@ -96,9 +101,14 @@ enum class AlongRay { none, lattice, formula };
 class SamplerPlugin : public Plugin {
  public:
   virtual AlongRay along_ray() const { return AlongRay::none; }
-  /// Bytes that bind() will allocate at the most; what it shares with the field does not count.
-  virtual std::uint64_t bytes_needed(const Field& /*field*/) const { return 0; }
-  /// Uniforms and buffers of the kernel for this field. `folder` is the plugin's folder.
+  /// Bytes that arrange() and bind() will allocate at the most; what they share with the field does not count.
+  virtual std::uint64_t bytes_needed(const Field& /*field*/, const ParameterSet& /*parameters*/) const { return 0; }
+  /// Blocks that take the field's place, where the sampler reads such.
+  virtual std::shared_ptr<const BlockedField> arrange(const Field& /*field*/, const ParameterSet& /*parameters*/,
+                                                      const ArrangeInput& /*input*/) const {
+    return nullptr;
+  }
+  /// Uniforms and buffers of the kernel for this field, or for what arrange() made of it.
   virtual KernelUnit bind(const Field& field) const = 0;
   /// The same for a grid of `dims` points over the field's box, where the sampler makes one.
   virtual KernelUnit bind_to(const Field& field, const std::array<int, 3>& /*dims*/) const { return bind(field); }

@@ -41,6 +41,7 @@ struct LocalShading {
 /// What a pass of light volumes is told beside its own parameters.
 struct LightSetting {
   std::array<int, 3> dims;    // of the light volume: the grid of the data, where they have one
+  const BlockedField* blocks = nullptr;  // whose samples the light volume has instead
   Affine to_world;            // sampler coordinates -> world relative to the box centre
   double voxel;               // smallest spacing of that grid, world units
   double box_diagonal;        // no way to a light is longer in the box
@@ -57,6 +58,8 @@ struct LightSetting {
   /// Lights whose depths one stage finds at once.
   int lights_per_volume() const { return rgb ? 1 : 4; }
   int channels_from(int first_light) const;
+  /// The points of the light volume, and of what stages find for each of them.
+  LightGrid points(int channels) const { return light_points(dims, blocks, channels); }
 };
 
 class IlluminationPlugin : public Plugin {

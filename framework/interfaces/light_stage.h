@@ -9,14 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "framework/interfaces/blocks.h"
 #include "framework/interfaces/kernel_unit.h"
 
 namespace dvrlab {
 
-/// A regular grid over the domain's box, both ends included: x fastest, then y, z, channel.
+/// A regular grid over the domain's box, both ends included: x fastest, then y, z, channel. Or `blocks`: the samples of the
+/// field's blocks (BlockedField), in rows of dims[0].
 struct LightGrid {
-  std::array<int, 3> dims{2, 2, 2};  // each at least 2
+  std::array<int, 3> dims{2, 2, 2};  // each at least 2; with blocks the last is 1
   int channels = 1;                  // 1 to 4
+  bool blocks = false;
   std::uint64_t points() const { return std::uint64_t(dims[0]) * std::uint64_t(dims[1]) * std::uint64_t(dims[2]); }
   std::uint64_t numbers() const { return points() * std::uint64_t(channels); }
 };
@@ -77,7 +80,8 @@ struct LightWork {
   KernelUnit rays;                           // light_*: what all stages read (framework/kernel/light_ray.kernel)
   KernelUnit sampler;                        // the field at positions; of the frame, unless that one walks
   std::array<double, 3> lo{}, hi{};          // the box in sampler coordinates
-  std::array<int, 3> dims{2, 2, 2};          // of the light volume
+  std::array<int, 3> dims{2, 2, 2};          // of the light volume, where it is a grid
+  std::shared_ptr<const BlockedField> blocks;  // of which it has the samples else
   bool rgb = false;                          // extinction differs between channels
   std::vector<std::array<double, 3>> color;  // of each light
   std::uint64_t bytes() const;               // of all volumes that are held at once, at the most
@@ -85,5 +89,8 @@ struct LightWork {
 
 /// Planes of the light volume: 1, or 3 where lights or extinction have colours.
 int light_planes(const LightWork& work);
+
+/// The points of volumes that have the field's own: of its blocks, or of a grid.
+LightGrid light_points(const std::array<int, 3>& dims, const BlockedField* blocks, int channels);
 
 }  // namespace dvrlab

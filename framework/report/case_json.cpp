@@ -16,7 +16,7 @@ json plugins_of(const ResolvedCase& c) {
                     {"version", s.plugin->version},
                     {"citation", s.plugin->citation}});
   };
-  for (const Section* s : {&c.data, &c.optical_model, &c.estimator, &c.backend}) add(*s);
+  for (const Section* s : {&c.data, &c.sampler, &c.optical_model, &c.estimator, &c.backend}) add(*s);
   for (const Section& s : c.illumination) add(s);
   for (const Section& s : c.metrics) add(s);
   return {{"abi", DVRLAB_ABI_TAG}, {"used", list}};

@@ -31,7 +31,7 @@ MediumTableOptions table_options(const ResolvedCase& c, const Field& field);
 
 /// All of it: what the kernels' variant for this medium and this light asks for.
 MediumTableOptions table_options(const ResolvedCase& c, const Field& field, const Medium& medium,
-                                 const LocalShading& light);
+                                 const LocalShading& light, const EstimatorDeclaration& d);
 
 /// What an estimator is told of that before its tables are made.
 TableLayout table_layout(const ResolvedCase& c, const Medium& medium, const MediumTableOptions& options);

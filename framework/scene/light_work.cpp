@@ -91,6 +91,20 @@ void add_sources(const LightSetting& s, const Field& field, KernelUnit& unit) {
   unit.buffers.push_back(vec4_buffer("light_source", std::move(source)));
 }
 
+void add_points(const LightSetting& s, const Field& field, KernelUnit& unit) {
+  Vector3 scale;
+  for (std::size_t a = 0; a < 3; ++a) scale[a] = (s.dims[a] - 1) / (field.hi[a] - field.lo[a]);
+  const auto plane = static_cast<int>(s.points(1).points());
+  constexpr double nudge = 1.0 / 256;  // voxels: behind a face, whatever was rounded
+  unit.uniforms.insert(
+      unit.uniforms.end(),
+      {Uniform::integer("light_points_nx", s.dims[0]), Uniform::integer("light_points_ny", s.dims[1]),
+       Uniform::integer("light_points_nz", s.dims[2]), Uniform::integer("light_points_plane", plane),
+       vec("light_points_lo", field.lo), vec("light_points_scale", scale),
+       Uniform::real("light_nudge", nudge * s.voxel)});
+  add_blocks(s.blocks, unit);
+}
+
 /// How many of the medium's bins before one may contribute, and two more entries, as medium_shaded_sum has them.
 std::vector<int> lit_sums(const OccupiedBins& occupied, const MediumTableOptions& o) {
   std::vector<int> sum{0};
@@ -109,9 +123,15 @@ int LightSetting::channels_from(int first_light) const {
   return rgb ? 3 : std::min(lights_per_volume(), static_cast<int>(light.size()) - first_light);
 }
 
+LightGrid light_points(const std::array<int, 3>& dims, const BlockedField* blocks, int channels) {
+  if (blocks == nullptr) return {dims, channels};
+  constexpr int row = BlockedField::row;
+  return {{row, static_cast<int>(blocks->samples / row), 1}, channels, true};
+}
+
 std::uint64_t LightWork::bytes() const {
-  std::uint64_t numbers = 3;  // per point of the light volume itself, at the most
-  numbers *= std::uint64_t(dims[0]) * std::uint64_t(dims[1]) * std::uint64_t(dims[2]);
+  // The light volume itself has three numbers per point at the most.
+  std::uint64_t numbers = light_points(dims, blocks.get(), 3).numbers();
   for (std::size_t k = 0; k < plan.stages.size(); ++k) {
     const LightStage& s = plan.stages[k];
     // Of a chain of one kernel two are there at once: the one that is filled and the one before it.
@@ -128,13 +148,15 @@ bool fills_light_volume(const ResolvedCase& c, const Registry& registry) { retur
 
 std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& registry, const Field& field,
                                       const Medium& medium, const MediumTableOptions& options,
-                                      const LocalShading& shading, double value_per_stored, double value_of_zero) {
+                                      const LocalShading& shading, double value_per_stored, double value_of_zero,
+                                      std::shared_ptr<const BlockedField> blocks) {
   const Section* pass = volume_pass(c, registry);
   if (pass == nullptr) return nullptr;
   const auto& plugin = registry.get<IlluminationPlugin>("illumination", pass->type);
   const Frame frame(field);
   LightSetting setting;
   setting.dims = light_dims(field, plugin.resolution(pass->parameters));
+  setting.blocks = blocks.get();
   setting.to_world = field.to_world;
   setting.to_world.t = minus(setting.to_world.t, frame.centre());
   setting.box_diagonal = length(field.to_world.vector(minus(field.hi, field.lo)));
@@ -153,10 +175,12 @@ std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& reg
   for (LightStage& s : work->plan.stages) s.folder = pass->folder;
   work->rays.plugin = "light";
   add_sources(setting, field, work->rays);
+  add_points(setting, field, work->rays);
   add_light_extinction(medium, options, work->plan.opacity_scale, setting.voxel, work->rays);
   work->lo = field.lo;
   work->hi = field.hi;
   work->dims = setting.dims;
+  work->blocks = std::move(blocks);
   work->rgb = setting.rgb;
   // Beside local shading, which has the lights' colours already, the volume says what part of the light arrives.
   Vector3 sum{0, 0, 0};
@@ -174,6 +198,7 @@ std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& reg
 void add_light_volume(const LightWork* work, const OccupiedBins& occupied, const MediumTableOptions& options,
                       KernelUnit& unit) {
   const auto at = [&](std::size_t a) { return work != nullptr ? work->dims[a] : 2; };
+  const LightGrid points = work != nullptr ? light_points(work->dims, work->blocks.get(), 1) : LightGrid{};
   Vector3 lo{0, 0, 0}, scale{1, 1, 1};
   for (std::size_t a = 0; work != nullptr && a < 3; ++a) {
     lo[a] = work->lo[a];
@@ -183,7 +208,8 @@ void add_light_volume(const LightWork* work, const OccupiedBins& occupied, const
       unit.uniforms.end(),
       {Uniform::constant_integer("frame_lit", work != nullptr ? light_planes(*work) : 0),
        Uniform::integer("frame_light_nx", at(0)), Uniform::integer("frame_light_ny", at(1)),
-       Uniform::integer("frame_light_nz", at(2)), vec("frame_light_lo", lo), vec("frame_light_scale", scale)});
+       Uniform::integer("frame_light_nz", at(2)), vec("frame_light_lo", lo), vec("frame_light_scale", scale),
+       Uniform::integer("frame_light_plane", static_cast<int>(points.points()))});
   std::vector<int> kept{0};
   if (work != nullptr) kept = lit_sums(occupied, options);
   const std::uint64_t count = work != nullptr ? kept.size() : 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "framework/interfaces/blocks.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/mesh.h"
 #include "framework/interfaces/transfer_function.h"
@@ -84,13 +85,15 @@ void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame) 
 }
 
 // Skipping only concerns grids; without it the kernel's binding holds one macrocell that is never empty.
-void add_skipping(bool wanted, const Field& field, const OccupiedBins& occupied, KernelUnit& unit) {
+void add_skipping(bool wanted, const Field& field, const BlockedField* blocks, const OccupiedBins& occupied,
+                  KernelUnit& unit) {
   const auto* grid = dynamic_cast<const GridField*>(&field);
   std::vector<std::uint8_t> distance(4, 0);
   std::array<int, 3> dims{1, 1, 1};
   const bool skip = wanted && grid != nullptr;
   if (skip) {
-    const auto cells = macrocells_of(*grid);
+    const auto cells = blocks != nullptr ? std::static_pointer_cast<const Macrocells>(blocks->macrocells)
+                                         : macrocells_of(*grid);
     dims = cells->dims;
     distance = empty_distance(*cells, occupied);
   }

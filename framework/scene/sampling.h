@@ -26,7 +26,8 @@ void add_sampling(const ResolvedCase& c, const Field& field, double step, Kernel
 /// Throws InputError when a ray could have more segments than are marched. `frame` has the camera's uniforms.
 void refuse_tiny_step(const Field& field, double step, const KernelUnit& frame);
 
-/// Adds frame_skip ... frame_skip_distance.
-void add_skipping(bool wanted, const Field& field, const OccupiedBins& occupied, KernelUnit& unit);
+/// Adds frame_skip ... frame_skip_distance. `blocks`: what the field lies in; their values are those that count.
+void add_skipping(bool wanted, const Field& field, const BlockedField* blocks, const OccupiedBins& occupied,
+                  KernelUnit& unit);
 
 }  // namespace dvrlab

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/interfaces/blocks.h"
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/estimator.h"
 #include "framework/interfaces/mesh.h"
@@ -36,9 +37,10 @@ double longest_segment(const ResolvedCase& c, const Field& field, double step) {
 
 std::shared_ptr<LightWork> light_work_of(const ResolvedCase& c, const Registry& registry, const Field& field,
                                          const Medium& medium, const MediumTableOptions& options,
-                                         const LocalShading& shading) {
+                                         const LocalShading& shading, std::shared_ptr<const BlockedField> blocks) {
   const TfDomain domain = tf_domain(c.optical_model.parameters, field);
-  return light_work(c, registry, field, medium, options, shading, domain.slope(field), domain.intercept(field));
+  return light_work(c, registry, field, medium, options, shading, domain.slope(field), domain.intercept(field),
+                    std::move(blocks));
 }
 
 /// What light rays ask at positions: the frame's own sampler, or a grid that stands in for one that walks. Of one mesh
@@ -60,8 +62,16 @@ KernelUnit light_sampler(const Registry& registry, const Field& field, const Ker
 
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
-  const std::string wanted = c.data.parameters.text("sampler");
-  return wanted.empty() ? field.sampler : wanted;
+  return c.sampler.type.empty() ? field.sampler : c.sampler.type;
+}
+
+std::shared_ptr<const BlockedField> blocks_of(const ResolvedCase& c, const Registry& registry, const Field& field,
+                                              const Medium& medium, const MediumTableOptions& options,
+                                              const OccupiedBins& occupied, int cells) {
+  const auto empty = [&](double a, double b) { return occupied.empty(a, b); };
+  return registry.get<SamplerPlugin>("sampler", sampler_of(c, field), "sampler.type")
+      .arrange(field, c.sampler.parameters,
+               {medium, options.entries, options.lo, options.hi, cells, empty, c.image.text("space") == "linear"});
 }
 
 }  // namespace
@@ -107,22 +117,23 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
                                               medium_columns * (sizeof(float) + sizeof(double)));
   const std::string sampler = sampler_of(c, field);
   memory.state("sampler '" + sampler + "'",
-               static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler).bytes_needed(field)));
+               static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler, "sampler.type")
+                                       .bytes_needed(field, c.sampler.parameters)));
   std::vector<std::string> notes;
   const Medium medium = stored_medium(c, registry, field, notes);
   const LocalShading shading = local_shading(c, registry, field, c.image.text("space") == "linear");
-  const MediumTableOptions options = table_options(c, field, medium, shading);
+  const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type);
+  const EstimatorDeclaration declared = estimator.declaration(c.estimator.parameters);
+  const MediumTableOptions options = table_options(c, field, medium, shading, declared);
   TableLayout layout = table_layout(c, medium, options);
   layout.walks = dynamic_cast<const MeshField*>(&field) != nullptr;
-  const EstimatorPlugin& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type);
   memory.state("estimator '" + c.estimator.type + "'",
                static_cast<double>(estimator.bytes_needed(c.estimator.parameters, layout)));
-  const EstimatorDeclaration declared = estimator.declaration(c.estimator.parameters);
   if (declared.mean_bins > 0)
     memory.state("mean tables", static_cast<double>(mean_table_bytes(declared.mean_bins, layout.groups + 1,
                                                                      layout.precision == Precision::fp64)));
   if (shading.light_volume) {
-    const auto work = light_work_of(c, registry, field, medium, options, shading);
+    const auto work = light_work_of(c, registry, field, medium, options, shading, nullptr);
     const double precisions = precision_of(c) == Precision::fp64 ? 3 : 1;
     memory.state("light volumes", static_cast<double>(work->bytes()) * precisions);
   }
@@ -160,7 +171,7 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const bool shaded = scene.medium.shaded();
   if (shaded && shading.mode == LocalShading::Mode::none && !shading.light_volume)
     scene.notes.emplace_back("optical_model: shaded, but there is no illumination pass: rendered unlit (k = 1, b = 0)");
-  const MediumTableOptions options = table_options(c, *field, scene.medium, shading);
+  const MediumTableOptions options = table_options(c, *field, scene.medium, shading, declared);
   job.rgb = options.rgb;
   job.full = options.full;
 
@@ -171,7 +182,15 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, *field, scene.step, job.frame);
   const OccupiedBins occupied(scene.medium, options, declared.cells);
-  add_skipping(skips(c), *field, occupied, job.frame);
+  end_phase("frame tables");
+  const std::shared_ptr<const BlockedField> blocks =
+      blocks_of(c, registry, *field, scene.medium, options, occupied, declared.cells);
+  if (blocks != nullptr) {
+    end_phase("blocks");
+    scene.blocks = blocks->statistics;
+  }
+  add_blocks(blocks.get(), job.frame);
+  add_skipping(skips(c), *field, blocks.get(), occupied, job.frame);
   // What tables hold: of opaque values only what lies before them.
   const Medium before_opaque = continued_into_opaque(scene.medium);
   add_medium(before_opaque, options, job.frame);
@@ -192,13 +211,14 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
        Uniform::constant_integer("frame_gradient", gradient ? 1 : 0)});
 
   const std::string sampler = sampler_of(c, *field);
-  job.sampler = registry.get<SamplerPlugin>("sampler", sampler).bind(*field);
+  const Field& bound = blocks != nullptr ? static_cast<const Field&>(*blocks) : *field;
+  job.sampler = registry.get<SamplerPlugin>("sampler", sampler, "sampler.type").bind(bound);
   job.sampler.plugin = sampler;
   job.sampler.folder = registry.find("sampler", sampler).folder;
   job.frame.uniforms.push_back(
       Uniform::constant_integer("frame_walks", walks(job.sampler) || samples_cells(c) ? 1 : 0));
   if (shading.light_volume) {
-    const auto work = light_work_of(c, registry, *field, scene.medium, options, shading);
+    const auto work = light_work_of(c, registry, *field, scene.medium, options, shading, blocks);
     work->sampler = light_sampler(registry, *field, job.sampler, work->dims);
     job.light = work;
   }

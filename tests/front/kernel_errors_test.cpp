@@ -90,7 +90,7 @@ TEST_P(OnGpu, EstimatorThatDoesNotCompile) {
 }
 
 TEST_P(OnGpu, SamplerThatDoesNotCompile) {
-  const std::string skip = judge(run(axes("data.sampler", R"(["bent", "grid"])")), "data.sampler", "bent",
+  const std::string skip = judge(run(axes("sampler.type", R"(["bent", "grid"])")), "sampler.type", "bent",
                                  {"do not compile", "sampler/bent/bent.kernel:4: error", "bending"});
   if (!skip.empty()) GTEST_SKIP() << "not supported: " << skip;
 }
@@ -98,7 +98,7 @@ TEST_P(OnGpu, SamplerThatDoesNotCompile) {
 TEST_P(OnGpu, TheSameTextsWithoutTheUnknownWordCompile) {
   write("estimator/crooked/crooked.kernel", estimator_text("R(0.5)"));
   write("sampler/bent/bent.kernel", sampler_text("R(0.5)"));
-  const RunSummary s = run(R"({"permutation": {"estimator": [{"type": "crooked"}], "data.sampler": ["bent"]},
+  const RunSummary s = run(R"({"permutation": {"estimator": [{"type": "crooked"}], "sampler.type": ["bent"]},
                                "variant": {"backend": [{"type": ")" +
                            std::string(GetParam()) + R"("}]}})");
   ASSERT_EQ(s.records.size(), 1u);
@@ -114,8 +114,8 @@ TEST_F(KernelErrors, ModuleOfAnotherAbiOnTheCpu) {
   judge(run(R"({"permutation": {"estimator": [{"type": "crooked"}, {"type": "direct"}]},
                 "variant": {"backend.isa": ["scalar"]}})"),
         "estimator", "crooked", {"crooked.scalar.so", "kernel ABI " + number, std::to_string(DVR_KERNEL_ABI), "again"});
-  judge(run(R"({"permutation": {"data.sampler": ["bent", "grid"]}, "variant": {"backend.isa": ["scalar"]}})"),
-        "data.sampler", "bent", {"bent.scalar.so", "kernel ABI " + number, "again"});
+  judge(run(R"({"permutation": {"sampler.type": ["bent", "grid"]}, "variant": {"backend.isa": ["scalar"]}})"),
+        "sampler.type", "bent", {"bent.scalar.so", "kernel ABI " + number, "again"});
 }
 
 TEST_F(KernelErrors, ModuleThatIsMissingOnTheCpu) {

@@ -36,13 +36,15 @@ struct DVR_STRUCT : kernel_base {
       q.g0 = frame_walks != 0 ? vec3r{load(c->h[0] + a), load(c->h[1] + a), load(c->h[2] + a)}
                               : vec3r{load(c->g[0] + a), load(c->g[1] + a), load(c->g[2] + a)};
       q.g1 = q.g = {load(c->g[0] + b), load(c->g[1] + b), load(c->g[2] + b)};
-#if DVR_FULL
       if (frame_lit != 0) {
         const vec3r m1 = {load(c->m[0] + b), load(c->m[1] + b), load(c->m[2] + b)};
+#if DVR_FULL
         q = segment_in_light(
             q, frame_samples_ends != 0 ? vec3r{load(c->m[0] + a), load(c->m[1] + a), load(c->m[2] + a)} : m1, m1);
-      }
+#else
+        q.m0 = m1;
 #endif
+      }
       vec3r color;
       spectral t;
       segment_integrate(q, color, t);

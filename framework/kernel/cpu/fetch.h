@@ -290,6 +290,16 @@ DVR_INLINE cell8 fetch_cell(voxels<T> b, inti base, int dy, int dz) {
   fetch2_at(b.data + sz + sy, n, r.v011, r.v111);
   return r;
 }
+/// The same with strides of each lane's own.
+template <class T>
+DVR_INLINE cell8 fetch_cell(voxels<T> b, inti base, inti dy, inti dz) {
+  cell8 r;
+  fetch2(b, base, r.v000, r.v100);
+  fetch2(b, base + dy, r.v010, r.v110);
+  fetch2(b, base + dz, r.v001, r.v101);
+  fetch2(b, base + dz + dy, r.v011, r.v111);
+  return r;
+}
 /// An entry that is the same for all lanes.
 DVR_INLINE vec4r fetch4u(table4 b, int i) {
   const scalar* p = b.data + 4 * i;

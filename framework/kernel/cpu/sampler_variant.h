@@ -12,6 +12,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/random.kernel"
 #include "framework/kernel/steps.kernel"
 #include "framework/kernel/volume.kernel"
+#include "framework/kernel/blocks.kernel"
 #include "framework/kernel/light_volume.kernel"
 #include DVR_KERNEL_FILE
   // clang-format on

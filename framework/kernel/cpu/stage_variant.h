@@ -6,6 +6,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/cpu/spectral.h"
 #include "framework/kernel/cpu/math.h"
 #include "framework/kernel/volume.kernel"
+#include "framework/kernel/blocks.kernel"
 #include "framework/kernel/random.kernel"
 #include "framework/kernel/light_ray.kernel"
 #include DVR_KERNEL_FILE
@@ -26,6 +27,10 @@ struct DVR_STRUCT : kernel_base {
   template <class T>
   KFN static cell8 fetch_cell(dvr::voxels<T> b, inti base, int dy, int dz) {
     return fetch_row_cell(b, base, dy, dz);
+  }
+  template <class T>
+  KFN static cell8 fetch_cell(dvr::voxels<T> b, inti base, inti dy, inti dz) {
+    return dvr::fetch_cell(b, base, dy, dz);
   }
 
   // The last packet of a row begins earlier rather than being short: its lanes stand side by side then.

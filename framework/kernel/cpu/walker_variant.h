@@ -14,6 +14,7 @@ struct DVR_STRUCT : kernel_base {
 #include "framework/kernel/ray.kernel"
 #include "framework/kernel/parts.kernel"
 #include "framework/kernel/volume.kernel"
+#include "framework/kernel/blocks.kernel"
 #include "framework/kernel/light_volume.kernel"
   UNIFORM_I(frame_samples_ends)
   UNIFORM_I(frame_gradient)

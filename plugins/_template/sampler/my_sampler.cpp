@@ -1,4 +1,5 @@
-// The `my_sampler` sampler: the nearest voxel of a grid, without interpolation. A config chooses it by `data.sampler`.
+// The `my_sampler` sampler: the nearest voxel of a grid, without interpolation. A config chooses it by its section
+// `sampler`.
 #include "framework/interfaces/error.h"
 #include "framework/interfaces/field.h"
 
@@ -12,7 +13,7 @@ class MySampler : public SamplerPlugin {
   // Names begin with the plugin's; the kernel reads them.
   KernelUnit bind(const Field& field) const override {
     const auto* grid = dynamic_cast<const GridField*>(&field);
-    if (grid == nullptr) throw InputError("data.sampler: my_sampler reads voxel grids; this is " + field.source);
+    if (grid == nullptr) throw InputError("sampler.type: my_sampler reads voxel grids; this is " + field.source);
     KernelUnit unit;
     unit.uniforms = {Uniform::integer("my_sampler_nx", grid->dims[0]), Uniform::integer("my_sampler_ny", grid->dims[1]),
                      Uniform::integer("my_sampler_nz", grid->dims[2])};

@@ -25,7 +25,7 @@ class LocalAmbientOcclusion : public LightPass {
     LightStage stage;
     stage.kernel = "local_ambient_occlusion_sphere";
     stage.label = "sphere";
-    stage.grid = {s.dims, s.rgb ? 3 : 1};
+    stage.grid = s.points(s.rgb ? 3 : 1);
     stage.uniforms = {Uniform::integer("local_ambient_occlusion_sphere_directions", static_cast<int>(table.size() / 4)),
                       Uniform::integer("local_ambient_occlusion_sphere_samples", samples),
                       Uniform::real("local_ambient_occlusion_sphere_part", p.number("radius") * s.voxel / samples)};

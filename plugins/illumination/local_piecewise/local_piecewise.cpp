@@ -115,13 +115,13 @@ class Planner {
 
  private:
   /// `rounds`: of a voxel's loops, per channel.
-  int add(const char* kernel, const std::string& label, const std::array<int, 3>& dims, int first, double rounds,
+  int add(const char* kernel, const std::string& label, const LightGrid& grid, int first, double rounds,
           std::vector<Uniform> uniforms, std::vector<StageRead> reads, std::vector<Buffer> buffers = {}) {
     LightStage stage;
     stage.kernel = std::string("local_piecewise_") + kernel;
     stage.label =
         label + (s_.light.size() > std::size_t(s_.lights_per_volume()) ? " " + std::to_string(first + 1) : "");
-    stage.grid = {dims, s_.channels_from(first)};
+    stage.grid = grid;
     stage.first_light = first;
     stage.long_loops = rounds * stage.grid.channels > most_rounds;
     stage.uniforms = std::move(uniforms);
@@ -133,18 +133,19 @@ class Planner {
 
   int add_direct(int first) {
     const bool own = p_.text("first_segment") == "piecewise";
-    const int segments = add("segment", "segment", s_.dims, first, segment_samples_,
+    const LightGrid here = s_.points(s_.channels_from(first)), coarse{coarse_, here.channels};
+    const int segments = add("segment", "segment", here, first, segment_samples_,
                              {Uniform::real("local_piecewise_segment_length", segment_),
                               Uniform::integer("local_piecewise_segment_samples", segment_samples_)},
                              {});
-    const int shadow = add("shadow", "shadow", coarse_, first, s_.box_diagonal / segment_,
-                           {Uniform::real("local_piecewise_shadow_length", segment_)},
-                           {{"local_piecewise_shadow_segments", segments, true}});
+    shadow_ = add("shadow", "shadow", coarse, first, s_.box_diagonal / segment_,
+                  {Uniform::real("local_piecewise_shadow_length", segment_)},
+                  {{"local_piecewise_shadow_segments", segments}});
     return add(
-        "direct", "direct", s_.dims, first, 0,
+        "direct", "direct", here, first, 0,
         {Uniform::real("local_piecewise_direct_length", segment_),
          Uniform::constant_integer("local_piecewise_direct_first", own ? 1 : 0)},
-        {{"local_piecewise_direct_segments", own ? segments : -1}, {"local_piecewise_direct_shadow", shadow, true}});
+        {{"local_piecewise_direct_segments", own ? segments : -1}, {"local_piecewise_direct_shadow", shadow_, true}});
   }
 
   void plan_directions() {
@@ -190,8 +191,10 @@ class Planner {
       std::string label = order > 1 ? "scatter, order " + std::to_string(order) : "scatter";
       if (at_once < count) label += ", directions " + std::to_string(from + 1) + " to " + std::to_string(to);
       before = add(
-          "scatter", label, s_.dims, first, 0, scatter_uniforms(from, to, more >= 0, order),
+          "scatter", label, s_.points(s_.channels_from(first)), first, 0,
+          scatter_uniforms(from, to, more >= 0, order),
           {{"local_piecewise_scatter_light", light},
+           {"local_piecewise_scatter_shadow", shadow_, true},
            {"local_piecewise_scatter_more", more},
            {"local_piecewise_scatter_before", before}},
           {vec4_buffer("local_piecewise_scatter_direction", table_), real_buffer("local_piecewise_scatter_gs", gs_)});
@@ -233,6 +236,7 @@ class Planner {
   bool scatters_;
   std::vector<LightDirection> directions_;
   int directions_done_ = 0;
+  int shadow_ = -1;  // the stage of the shadow volume
   std::vector<double> table_, gs_;
   LightPlan plan_;
 };

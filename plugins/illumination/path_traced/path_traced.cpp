@@ -55,7 +55,7 @@ class Planner {
     stage.label = "walk";
     if (plan_.stages.size() > 0 || s_.rgb || s_.light.size() > 1)
       stage.label += " " + std::to_string(light + 1) + (s_.rgb ? std::string(1, "rgb"[color]) : "");
-    stage.grid = {s_.dims, 2};
+    stage.grid = s_.points(2);
     stage.first_light = light;
     stage.long_loops = true;
     // An empty medium still has flights, far longer than the box.

@@ -23,7 +23,7 @@ class ShadowFull : public LightPass {
       LightStage stage;
       stage.kernel = "shadow_full_march";
       stage.label = "march";
-      stage.grid = {s.dims, s.channels_from(first)};
+      stage.grid = s.points(s.channels_from(first));
       stage.first_light = first;
       stage.long_loops = s.box_diagonal / (p.number("step") * s.voxel) * stage.grid.channels > most_rounds;
       stage.uniforms = {Uniform::real("shadow_full_march_step", p.number("step") * s.voxel),

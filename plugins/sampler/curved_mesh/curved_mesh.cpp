@@ -76,7 +76,7 @@ void add_corner_gradients(const MeshField& mesh, std::uint64_t cell, const std::
 
 class CurvedMesh : public SamplerPlugin {
  public:
-  std::uint64_t bytes_needed(const Field& field) const override {
+  std::uint64_t bytes_needed(const Field& field, const ParameterSet&) const override {
     const auto* mesh = dynamic_cast<const MeshField*>(&field);
     if (mesh == nullptr) return 0;
     const std::uint64_t terms = static_cast<std::uint64_t>(terms_of(*mesh)) + linear_element_terms + 1;

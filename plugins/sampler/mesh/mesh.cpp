@@ -10,7 +10,7 @@ namespace {
 
 class Mesh : public SamplerPlugin {
  public:
-  std::uint64_t bytes_needed(const Field& field) const override {
+  std::uint64_t bytes_needed(const Field& field, const ParameterSet&) const override {
     const auto* mesh = dynamic_cast<const MeshField*>(&field);
     if (mesh == nullptr) return 0;
     const std::uint64_t slopes = mesh->gradient == MeshGradient::cell ? mesh->cells() : mesh->point.size();
@@ -23,7 +23,7 @@ class Mesh : public SamplerPlugin {
     for (const CellShape s : mesh->shape)
       if (!info_of(s).linear())
         throw InputError("sampler mesh: " + mesh->source + " has cells of the shape " + info_of(s).name +
-                         ", in which the scalar is not linear; leave out data.sampler");
+                         ", in which the scalar is not linear; leave out the section sampler");
     KernelUnit unit;
     unit.uniforms = {Uniform::constant_integer("mesh_gradients", mesh->gradient == MeshGradient::cell ? 0 : 1)};
     add_tetrahedra(*mesh, unit);

@@ -11,8 +11,8 @@ class Resampled : public SamplerPlugin {
  public:
   KernelUnit bind(const Field& field) const override {
     throw InputError(
-        "data.sampler: \"resampled\" is chosen by passes of light volumes, whose `resolution` is its grid; " +
-        field.source + " has a sampler of its own, leave out data.sampler");
+        "sampler.type: \"resampled\" is chosen by passes of light volumes, whose `resolution` is its grid; " +
+        field.source + " has a sampler of its own, leave out the section sampler");
   }
   KernelUnit bind_to(const Field& field, const std::array<int, 3>& dims) const override {
     const auto* mesh = dynamic_cast<const MeshField*>(&field);

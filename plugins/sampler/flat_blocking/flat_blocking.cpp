@@ -1,0 +1,89 @@
+// The `flat_blocking` sampler: a voxel grid in blocks of their own level of detail, chosen by the transfer functions.
+#include <algorithm>
+
+#include "framework/interfaces/blocks.h"
+#include "framework/interfaces/error.h"
+#include "framework/scene/blocks/block_pyramid.h"
+
+namespace dvrlab::flat_blocking {
+namespace {
+
+using enum ParameterType;
+constexpr Affects pixels = Affects::pixels;
+
+const Parameter parameters[] = {
+    {"reduction", number, "grid points per sample", "0", "[0,500]",
+     "How much less is kept, with the least error of the colours; 1: everything, the grid itself; 0: by tolerance.",
+     pixels, "", "12"},
+    {"tolerance", number, "CIELUV", "1", "[0,inf)",
+     "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference. Where reduction is 0.",
+     pixels, R"({"sampler":{"reduction":0}})", "8"},
+    {"block_border", choice, "", "\"interblock\"", "interblock|clamp",
+     "interblock: continuous across blocks; clamp: each block alone, its positions clamped to its samples (the "
+     "paper's).",
+     pixels, "", "\"clamp\""},
+};
+
+constexpr Element element_of[] = {Element::u8, Element::i8, Element::u16, Element::i16, Element::f32};  // of VoxelType
+
+class FlatBlocking : public SamplerPlugin {
+ public:
+  void check(const ParameterSet& p) const override {
+    const double r = p.number("reduction");
+    if (r != 0 && !(r >= 1 && r <= 500))
+      throw InputError(p.path_of("reduction") + ": must be 0, or from 1 to 500 grid points per sample");
+  }
+  std::uint64_t bytes_needed(const Field& field, const ParameterSet& p) const override {
+    const GridField& grid = grid_of(field);
+    const double full = 1.25 * static_cast<double>(grid.bytes());  // with shared faces
+    return static_cast<std::uint64_t>(full / std::max(1.0, p.number("reduction"))) +
+           BlockPyramid::bytes(grid.dims, border_of(p));
+  }
+  std::shared_ptr<const BlockedField> arrange(const Field& field, const ParameterSet& p,
+                                              const ArrangeInput& input) const override {
+    BlockChoice choice;
+    choice.border = border_of(p);
+    choice.reduction = p.number("reduction");
+    choice.tolerance = p.number("tolerance");
+    return make_blocks(grid_of(field), choice, input);
+  }
+  KernelUnit bind(const Field& field) const override {
+    const auto& f = dynamic_cast<const BlockedField&>(field);
+    KernelUnit unit;
+    // As the grid sampler: world gradients by the inverse transposed, normals follow the physical value.
+    const Affine inverse = f.to_world.inverse();
+    const double sign = f.slope < 0 ? -1.0 : 1.0;
+    const char* names[] = {"flat_blocking_gradient_x", "flat_blocking_gradient_y", "flat_blocking_gradient_z"};
+    for (std::size_t r = 0; r < 3; ++r)
+      unit.uniforms.push_back(
+          Uniform::vector(names[r], sign * inverse.m[r], sign * inverse.m[3 + r], sign * inverse.m[6 + r]));
+    const bool whole = f.border == BlockBorder::interblock &&
+                       std::all_of(f.record.begin(), f.record.end(), [](std::int32_t r) { return (r & 7) == 0; });
+    unit.uniforms.push_back(Uniform::constant_integer("flat_blocking_whole", whole ? 1 : 0));
+    unit.buffers = {
+        Buffer{"flat_blocking_voxels", element_of[static_cast<std::size_t>(f.type)], f.values, f.samples}};
+    return unit;
+  }
+
+ private:
+  static BlockBorder border_of(const ParameterSet& p) {
+    return static_cast<BlockBorder>(p.choice_index("block_border"));
+  }
+  static const GridField& grid_of(const Field& field) {
+    const auto* grid = dynamic_cast<const GridField*>(&field);
+    if (grid == nullptr)
+      throw InputError("sampler.type: \"flat_blocking\" puts voxel grids into blocks; " + field.source +
+                       " is none, leave out the section sampler");
+    return *grid;
+  }
+};
+
+}  // namespace
+
+DVRLAB_PLUGIN("sampler", "flat_blocking", "1.0", FlatBlocking, parameters,
+              "a voxel grid in blocks of 16^3 at levels of detail chosen by the transfer functions",
+              "P. Ljung, C. Lundstroem, A. Ynnerman, K. Museth, Transfer Function Based Adaptive Decompression for "
+              "Volume Rendering of Large Medical Data Sets, IEEE Symposium on Volume Visualization 2004, "
+              "doi:10.1109/SVVG.2004.14")
+
+}  // namespace dvrlab::flat_blocking
