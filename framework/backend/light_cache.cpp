@@ -256,6 +256,48 @@ std::shared_ptr<std::vector<float>> combined_error(const LightWork& work,
   return error;
 }
 
+/// The image as the sum over stages of the mean of their independent estimates, and from those its standard error.
+template <class Real>
+void join_estimates(const FrameJob& job, const std::vector<const LightVolume*>& parts, FrameResult& result) {
+  const std::size_t pixels = std::size_t(job.width) * std::size_t(job.height);
+  FrameImage& image = result.image;
+  image.width = job.width;
+  image.height = job.height;
+  image.color.resize(3 * pixels);
+  image.trans.resize(3 * pixels);
+  if (job.precision == Precision::fp64) {
+    image.color64.resize(3 * pixels);
+    image.trans64.resize(3 * pixels);
+  }
+  double square = 0, worst = 0;
+  for (std::size_t p = 0; p < pixels; ++p)
+    for (std::size_t ch = 0; ch < 4; ++ch) {
+      double value = 0, variance = 0;
+      for (const LightVolume* v : parts) {
+        const auto batches = std::size_t(v->grid.dims[2]);
+        double mean = 0, deviation = 0;
+        for (std::size_t b = 0; b < batches; ++b) {
+          const double x = double((*numbers_of(*v, Real()))[(ch * batches + b) * pixels + p]), d = x - mean;
+          mean += d / double(b + 1);
+          deviation += d * (x - mean);
+        }
+        value += mean;
+        variance += deviation / double(batches * (batches - 1));
+      }
+      if (ch == 3) {
+        std::fill_n(image.trans.begin() + std::ptrdiff_t(3 * p), 3, float(value));
+        if (!image.trans64.empty()) std::fill_n(image.trans64.begin() + std::ptrdiff_t(3 * p), 3, value);
+        continue;
+      }
+      image.color[3 * p + ch] = float(value);
+      if (!image.color64.empty()) image.color64[3 * p + ch] = value;
+      square += variance;
+      worst = std::max(worst, variance);
+    }
+  result.counters.samples = pixels;
+  result.light = {{"error_rms", std::sqrt(square / double(3 * pixels))}, {"error_max", std::sqrt(worst)}};
+}
+
 std::vector<std::pair<std::string, double>> statistics_of(const LightVolume& volume) {
   double sum = 0, square = 0, least = 1e300, most = -1e300;
   for (const float x : *volume.values) {
@@ -289,13 +331,34 @@ int light_planes(const LightWork& work) {
   return work.rgb || !grey ? 3 : 1;
 }
 
-LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vector<PhaseTime>& times) {
-  const LightWork& work = *job.light;
+/// What was kept for another field is not kept any longer.
+void LightCache::start(const FrameJob& job) {
   std::vector<std::shared_ptr<const void>> sources;
-  for (const Buffer& b : work.sampler.buffers) sources.push_back(b.data);
+  for (const Buffer& b : job.light->sampler.buffers) sources.push_back(b.data);
   if (sources != sources_) kept_.clear();
   sources_ = std::move(sources);
+}
 
+void LightCache::keep_only(const std::set<std::string>& used) {
+  std::erase_if(kept_, [&](const auto& item) { return !used.contains(item.first); });
+}
+
+void LightCache::image(const FrameJob& job, const Fill& fill, FrameResult& result) {
+  start(job);
+  Run run(job, fill, kept_);
+  std::vector<const LightVolume*> parts;
+  for (const int s : job.light->plan.image) parts.push_back(&run.need(std::size_t(s)));
+  if (job.precision == Precision::fp64)
+    join_estimates<double>(job, parts, result);
+  else
+    join_estimates<float>(job, parts, result);
+  keep_only({run.key.begin(), run.key.end()});
+  result.times = std::move(run.times);
+}
+
+LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vector<PhaseTime>& times) {
+  const LightWork& work = *job.light;
+  start(job);
   Run run(job, fill, kept_);
   std::vector<std::vector<const LightVolume*>> parts;
   for (const LightPart& p : work.plan.parts) {
@@ -337,7 +400,7 @@ LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vecto
   }
   std::set<std::string> used(run.key.begin(), run.key.end());
   used.insert(key);
-  std::erase_if(kept_, [&](const auto& item) { return !used.contains(item.first); });
+  keep_only(used);
   times.insert(times.end(), run.times.begin(), run.times.end());
   return kept_.at(key);
 }

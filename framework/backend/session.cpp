@@ -30,6 +30,10 @@ void BackendSession::render(const FrameJob& job, FrameResult& result) {
     march(job, result);
     return;
   }
+  if (!job.light->plan.image.empty()) {
+    find_image(job, result);
+    return;
+  }
   std::vector<PhaseTime> times;
   const LightVolume volume = illuminate(job, times);
   march(lit(job, volume), result);
@@ -37,7 +41,15 @@ void BackendSession::render(const FrameJob& job, FrameResult& result) {
   result.times.insert(result.times.begin(), times.begin(), times.end());
 }
 
+void BackendSession::find_image(const FrameJob& job, FrameResult& result) {
+  if (light_ == nullptr) light_ = std::make_unique<LightCache>();
+  light_->image(
+      job, [&](const StageJob& s, LightVolume& v) { fill(s, v); }, result);
+}
+
 std::vector<ProbeSegment> BackendSession::probe(const FrameJob& job, int x, int y) {
+  if (job.light != nullptr && !job.light->plan.image.empty())
+    throw NotSupported("the pass finds the image itself, without segments that a probe could show");
   std::vector<PhaseTime> times;
   return job.light == nullptr ? march_ray(job, x, y) : march_ray(lit(job, illuminate(job, times)), x, y);
 }

@@ -81,7 +81,8 @@ struct FrameResult {
   FrameCounters counters;
   std::vector<PhaseTime> times;
   /// Of the light volume, over its points: "min", "max", "mean", "deviation"; where its pass knows a standard error,
-  /// the root of its mean square and the largest: "error_rms", "error_max". Empty without a light volume.
+  /// the root of its mean square and the largest: "error_rms", "error_max". Empty without a light volume. Of a pass that
+  /// finds the image itself only those two, of its radiance.
   std::vector<std::pair<std::string, double>> light;
 };
 
@@ -134,6 +135,8 @@ class BackendSession {
 
  private:
   static FrameJob lit(const FrameJob& job, const LightVolume& volume);
+  /// Of a pass that finds the image itself (LightPlan::image).
+  void find_image(const FrameJob& job, FrameResult& result);
   std::unique_ptr<LightCache> light_;
 };
 

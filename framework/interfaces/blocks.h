@@ -25,7 +25,7 @@ enum class BlockBorder { interblock, clamp };
 /// 16^3 voxels at 1 of 5 levels: level l has (16 >> l)^3 samples, with `interblock` ((16 >> l) + 1)^3.
 struct BlockedField : Field {
   static constexpr int side = 16, levels = 5;
-  static constexpr int dropped = levels;  // as a level: nothing but one value, shared by the dropped blocks
+  static constexpr int dropped = levels;  // as a level: nothing but one invisible value, shared by several blocks
 
   std::array<int, 3> dims{0, 0, 0};    // grid points of what was put into blocks
   std::array<int, 3> blocks{0, 0, 0};  // per axis

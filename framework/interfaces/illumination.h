@@ -38,6 +38,17 @@ struct LocalShading {
   bool light_volume = false;  // a pass fills one: its value is a factor of m, k and b
 };
 
+/// The case's camera, and what it sees of the medium: for a pass that finds the image itself.
+struct ImageSetting {
+  int width = 0, height = 0;
+  KernelUnit rays;  // frame_* of framework/kernel/ray.kernel
+  /// Per entry of light_tau, per world length: the source that is lit and the extinction (r, g, b, tau); the source that
+  /// sends by itself (r, g, b, 0).
+  std::vector<double> lit, emitted;
+  Vector3 background{0, 0, 0};
+  bool glows_without_extinction = false;
+};
+
 /// What a pass of light volumes is told beside its own parameters.
 struct LightSetting {
   std::array<int, 3> dims;    // of the light volume: the grid of the data, where they have one
@@ -52,6 +63,8 @@ struct LightSetting {
   Vector3 largest_tau;        // per channel and world length
   bool surfaces;              // some extinction has no length: surfaces, Dirac terms, opaque ranges
   std::uint32_t seed;         // of the case
+  bool local_shading;         // a pass of local shading stands beside
+  const ImageSetting* image;
 
   /// Sampler coordinates per world length of a unit direction in the world.
   Vector3 sampler_direction(const Vector3& world) const;

@@ -60,6 +60,9 @@ struct LightPart {
 struct LightPlan {
   std::vector<LightStage> stages;
   std::vector<LightPart> parts;
+  /// Nothing, or stages whose sum is the image itself: (r, g, b, transmittance) of its pixels, dims[2] independent
+  /// estimates of each. There is no march and no light volume then.
+  std::vector<int> image;
   double opacity_scale = 1;  // extinction that light rays see, relative to the medium's
   double bias = 0;           // light that is always there: bias + (1 - bias) x
   double blend = 1;          // how much of all this acts: 1 - blend + blend (...)

@@ -6,6 +6,7 @@
 #include "framework/interfaces/error.h"
 #include "framework/scene/buffers.h"
 #include "framework/scene/camera.h"
+#include "framework/scene/image_setting.h"
 #include "framework/scene/light_extinction.h"
 #include "framework/scene/vector.h"
 
@@ -169,6 +170,9 @@ std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& reg
   setting.largest_tau = largest_extinction(medium, options);
   setting.surfaces = medium.terms().surfaces() || !medium.dirac.empty() || !medium.opaque.empty();
   setting.seed = static_cast<std::uint32_t>(c.top.integer("seed"));
+  setting.local_shading = shading.mode != LocalShading::Mode::none;
+  const ImageSetting image = image_setting(c, field, medium, options);
+  setting.image = &image;
 
   auto work = std::make_shared<LightWork>();
   work->plan = plugin.plan(pass->parameters, setting);

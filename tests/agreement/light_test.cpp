@@ -99,6 +99,12 @@ std::vector<Lit> lits() {
       {"ambient_occlusion", {{"illumination", {{{"type", "local_ambient_occlusion"}, {"radius", 5}, {"samples", 3}}}}}},
       {"formula", patched({{"data", {{"evaluate", "formula"}, {"voxel_type", nullptr}}}}, pass({{"resolution", 20}}))},
       {"engine", engine()},
+      {"blocks", {{"sampler", {{"type", "flat_blocking"}, {"reduction", 3}}}}},
+      {"blocks_clamped", {{"sampler", {{"type", "flat_blocking"}, {"reduction", 3}, {"block_border", "clamp"}}}}},
+      {"blocks_of_hybrid", patched(both(hybrid()), {{"sampler", {{"type", "flat_blocking"}, {"reduction", 2}}}})},
+      {"blocks_with_points",
+       without_opacity(
+           patched(patched(points, rgb), {{"sampler", {{"type", "flat_blocking"}, {"tolerance", 3}}}}))},
       {"preintegrated", estimator({{"type", "preintegrated"}, {"table_size", 128}})},
       {"preintegrated_nonlinear",
        estimator({{"type", "preintegrated"}, {"table_size", 128}, {"lookup", "plain"}, {"shading", "nonlinear"}})},

@@ -76,6 +76,12 @@ LightVolume illuminate(const nlohmann::json& config, const Target& target, std::
   return session.illuminate(scene.job, times != nullptr ? *times : ignored);
 }
 
+std::vector<ProbeSegment> probe(const nlohmann::json& config, int x, int y) {
+  nlohmann::json full = config;
+  full["backend"] = {{"type", "cpu"}};
+  return session_of(full).probe(scene_of(full).job, x, y);
+}
+
 double largest_difference(const FrameImage& a, const FrameImage& b) {
   if (a.width != b.width || a.height != b.height) return std::numeric_limits<double>::infinity();
   double worst = 0;

@@ -38,6 +38,9 @@ FrameResult render(const nlohmann::json& config, const Target& target,
 LightVolume illuminate(const nlohmann::json& config, const Target& target, std::vector<PhaseTime>* times = nullptr,
                        const std::function<void(FrameJob&)>& alter = nullptr);
 
+/// The segments of one ray on the cpu.
+std::vector<ProbeSegment> probe(const nlohmann::json& config, int x, int y);
+
 /// The largest absolute difference over radiance and transmittance; NaN counts as infinite.
 double largest_difference(const FrameImage& a, const FrameImage& b);
 /// Number of values whose bits differ.

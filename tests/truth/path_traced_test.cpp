@@ -189,5 +189,97 @@ TEST(PathTraced, SaysWhatItCannotDo) {
   EXPECT_THROW(scene_of(config), InputError);
 }
 
+// ---- walks that begin at the camera ---------------------------------------------------------------------------------
+
+struct Traced {
+  FrameImage image;
+  double error_rms = 0;
+};
+Traced traced(json config, const json& pass) {
+  config["illumination"] = {patched(pass, {{"target", "image"}})};
+  const FrameResult r = render(config, cpu);
+  for (const auto& [name, value] : r.light)
+    if (name == "error_rms") return {r.image, value};
+  throw std::logic_error("no standard error");
+}
+double mean_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += double(a[k]) - double(b[k]);
+  return sum / double(a.size());
+}
+
+TEST(PathTracedImage, DirectLightAndTransmittanceAreThoseOfTheMarch) {
+  json config = cube(0.15, 11, {{"type", "shadow_full"}, {"step", 0.5}});
+  config["sampling"] = {{"type", "uniform"}, {"step", 0.25}, {"unit", "voxel"}, {"termination", 0}};
+  config["image"] = {{"size", {12, 12}}, {"background", {0.2, 0.5, 0.1}}};
+  config["optical_model"]["emission"] = {{0, 0.01, 0.02, 0.03}};
+  config["lights"][0]["color"] = {1, 0.8, 0.6};
+  const FrameImage marched = render(config, cpu).image;
+  const Traced t = traced(config, walks(1024, {{"components", "direct"}}));
+  const double pixels = 144;
+  std::printf("mean difference %.1e of radiance, %.1e of transmittance; stated error of a pixel %.1e\n",
+              mean_difference(t.image.color, marched.color), mean_difference(t.image.trans, marched.trans), t.error_rms);
+  EXPECT_LT(std::abs(mean_difference(t.image.color, marched.color)), 4 * t.error_rms / std::sqrt(pixels));
+  EXPECT_LT(std::abs(mean_difference(t.image.trans, marched.trans)), 4 * 0.5 / std::sqrt(pixels * 1024));
+  double square = 0;
+  for (std::size_t k = 0; k < t.image.color.size(); ++k) {
+    const double d = double(t.image.color[k]) - double(marched.color[k]);
+    square += d * d;
+  }
+  EXPECT_NEAR(std::sqrt(square / (3 * pixels)) / t.error_rms, 1, 0.15) << "the stated error is the error";
+  config["optical_model"]["extinction"] = {{0, 0.165}};
+  EXPECT_GT(std::abs(mean_difference(t.image.color, render(config, cpu).image.color)), 6 * t.error_rms / std::sqrt(pixels))
+      << "negative control: 10 % more extinction";
+}
+
+TEST(PathTracedImage, WhiteFurnace) {
+  json config = cube(0.3, 9, json::object());
+  const json pass = walks(64, {{"environment", 1}, {"components", "scattered"}});
+  const FrameImage with = traced(config, pass).image;
+  const FrameImage without = traced(config, patched(pass, {{"environment", 0}})).image;
+  double largest = 0;
+  for (std::size_t k = 0; k < with.color.size(); ++k) {
+    ASSERT_NEAR(with.color[k] - without.color[k], 1 - with.trans[k], 2e-5);
+    largest = std::max(largest, double(with.color[k]));
+  }
+  EXPECT_GT(largest, 0.5);
+}
+
+// The volume of the same walks, marched, and a pass that approximates it.
+TEST(PathTracedImage, AgreesWithTheVolumeAndWithOneOrderOfLocalPiecewise) {
+  json config = cube(0.2, 11, walks(2048, {{"components", "scattered"}, {"orders", 1}, {"albedo", 0.8}}));
+  config["sampling"] = {{"type", "uniform"}, {"step", 0.25}, {"unit", "voxel"}, {"termination", 0}};
+  const FrameImage by_volume = render(config, cpu).image;
+  const Traced t = traced(config, walks(2048, {{"components", "scattered"}, {"orders", 1}, {"albedo", 0.8}}));
+  const double error = t.error_rms / 8;  // of the mean over 8 x 8 pixels
+  EXPECT_LT(std::abs(mean_difference(t.image.color, by_volume.color)), 5 * error);
+  config["illumination"] = {{{"type", "local_piecewise"}, {"normalisation", "physical"}, {"albedo", 0.8},
+                             {"radius", 18}, {"samples", 36}, {"subdivisions", 2}, {"segment", 2},
+                             {"segment_samples", 8}, {"shadow_ratio", {1, 1, 1}}}};
+  const FrameImage approximated = render(config, cpu).image;
+  double mean = 0;
+  for (const float x : t.image.color) mean += double(x) / double(t.image.color.size());
+  std::printf("one order: mean %.4f, local piecewise off by %.1e, the volume by %.1e, error %.1e\n", mean,
+              mean_difference(approximated.color, t.image.color), mean_difference(by_volume.color, t.image.color), error);
+  EXPECT_LT(std::abs(mean_difference(approximated.color, t.image.color)), 0.03 * mean + 3 * error);
+}
+
+TEST(PathTracedImage, RefusesWhatItCannotSee) {
+  const auto refused = [](const json& change, const char* word) {
+    json config = patched(cube(0.2, 5, walks(4, {{"target", "image"}})), change);
+    try {
+      render(config, cpu);
+      ADD_FAILURE() << word;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("illumination[0].target"), std::string::npos) << e.what();
+    }
+  };
+  refused({{"optical_model", {{"extinction", {{0, 0.1, 0.2, 0.3}}}}}}, "same for all colours");
+  refused({{"illumination", {walks(4, {{"target", "image"}}), {{"type", "blinn_phong"}}}}}, "local shading");
+  refused({{"optical_model", {{"extinction", {{0, 0}}}, {"emission", {{0, 1, 1, 1}}}}}}, "glows");
+  EXPECT_THROW(probe(cube(0.2, 5, walks(4, {{"target", "image"}})), 1, 1), NotSupported);
+}
+
 }  // namespace
 }  // namespace dvrlab::test

@@ -43,8 +43,9 @@ class BlockJudge {
   BlockErrors judge(const std::array<int, 3>& block, const ArrangeInput& input) {
     BlockErrors e;
     range(block, e);
-    e.empty = input.empty(double(e.lo), double(e.hi));
-    for (int l = 1; l < levels && !e.empty; ++l) e.square[std::size_t(l)] = square(block, l);
+    if (input.empty(double(e.lo), double(e.hi))) return e;
+    for (int l = 1; l < levels; ++l) e.square[std::size_t(l)] = square(block, l);
+    drop(input, e);
     return e;
   }
 
@@ -69,6 +70,25 @@ class BlockJudge {
           voxel_[std::size_t((z * side + y) * side + x)] = v;
           if (colors_.visible(v)) ++e.visible;
         }
+  }
+
+  /// Of a block that is not empty: an invisible value of its own stands for it.
+  void drop(const ArrangeInput& input, BlockErrors& e) {
+    e.square[levels] = 1e300;
+    const auto inside = [&](auto visit) {
+      for (int z = 0; z < here_[2]; ++z)
+        for (int y = 0; y < here_[1]; ++y)
+          for (int x = 0; x < here_[0]; ++x) visit(voxel_[std::size_t((z * side + y) * side + x)]);
+    };
+    bool found = false;
+    inside([&](float v) {
+      if (found || colors_.visible(v) || !input.empty(double(v), double(v))) return;
+      found = true;
+      e.lo = e.hi = v;
+    });
+    if (!found) return;
+    e.square[levels] = 0;
+    inside([&](float v) { e.square[levels] += colors_.square(v, e.lo); });
   }
 
   double square(const std::array<int, 3>& block, int level) {
@@ -116,11 +136,10 @@ double rms(const BlockErrors& e, int level) {
 std::uint64_t at_price(const std::vector<BlockErrors>& blocks, BlockBorder border, double price, std::vector<int>& out) {
   std::uint64_t samples = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (blocks[b].empty) continue;
     double least = 1e300;
-    for (int l = 0; l < levels; ++l) {
+    for (int l = 0; l <= levels; ++l) {
       const double cost = blocks[b].square[std::size_t(l)] + price * block_samples(border, l);
-      if (!(cost < least)) continue;
+      if (!(cost <= least)) continue;
       least = cost;
       out[b] = l;
     }
@@ -132,7 +151,7 @@ std::uint64_t at_price(const std::vector<BlockErrors>& blocks, BlockBorder borde
 void spend_rest(const std::vector<BlockErrors>& blocks, BlockBorder border, std::uint64_t rest, std::vector<int>& out) {
   std::vector<std::size_t> order;
   for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (!blocks[b].empty && out[b] > 0) order.push_back(b);
+    if (out[b] > 0 && out[b] < BlockedField::dropped) order.push_back(b);
   const auto more = [&](std::size_t b) { return block_samples(border, out[b] - 1) - block_samples(border, out[b]); };
   const auto gain = [&](std::size_t b) {
     const auto& s = blocks[b].square;
@@ -149,6 +168,7 @@ void spend_rest(const std::vector<BlockErrors>& blocks, BlockBorder border, std:
 }  // namespace
 
 int block_samples(BlockBorder border, int level) {
+  if (level == BlockedField::dropped) return 0;
   const int n = (side >> level) + (border == BlockBorder::interblock ? 1 : 0);
   return (n * n * n + 7) / 8 * 8;
 }
@@ -174,11 +194,8 @@ std::vector<int> choose_levels(const std::vector<BlockErrors>& blocks, const Blo
   std::vector<int> out(blocks.size(), BlockedField::dropped);
   if (choice.reduction == 1) return std::vector<int>(blocks.size(), 0);
   if (choice.reduction == 0) {
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      if (blocks[b].empty) continue;
-      out[b] = 0;
-      for (int l = 1; l < levels && rms(blocks[b], l) <= choice.tolerance; ++l) out[b] = l;
-    }
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      while (rms(blocks[b], out[b]) > choice.tolerance && out[b] > 0) --out[b];
     return out;
   }
   const auto budget = std::uint64_t(double(grid_points) / choice.reduction);

@@ -216,7 +216,6 @@ void add_statistics(BlockedField& f, const std::vector<BlockErrors>& errors, con
   std::array<int, levels + 1> count{};
   for (std::size_t b = 0; b < level.size(); ++b) {
     ++count[std::size_t(level[b])];
-    if (level[b] == BlockedField::dropped) continue;
     voxels += errors[b].visible;
     square += errors[b].square[std::size_t(level[b])];
   }
