@@ -87,11 +87,10 @@ Expectation read_one(const ConfigTree& tree, const std::string& path, Problems& 
 }  // namespace
 
 const std::vector<std::string>& own_values() {
-  static const std::vector<std::string> names = {"light.min",       "light.max",         "light.mean",
-                                                 "light.deviation", "light.error_rms",   "light.error_max",
-                                                 "time.light",      "time.direct_light", "time.march",
-                                                 "blocks.reduction", "blocks.error_rms", "blocks.bytes",
-                                                 "blocks.dropped"};
+  static const std::vector<std::string> names = {
+      "light.min",        "light.max",    "light.mean",        "light.deviation", "light.error_rms",
+      "light.error_max",  "time.light",   "time.direct_light", "time.march",      "blocks.reduction",
+      "blocks.error_rms", "blocks.bytes", "blocks.dropped"};
   return names;
 }
 

@@ -25,7 +25,7 @@ struct Section {
 /// same ParameterSet as the plugin's own.
 struct ResolvedCase {
   Section data, optical_model, estimator, camera, sampling, backend;
-  Section sampler;  // without a type where the config has none: the one that the data name
+  Section sampler;                    // without a type where the config has none: the one that the data name
   std::vector<Section> lights;        // at most 4
   std::vector<Section> illumination;  // passes, in order
   std::vector<Section> clip;          // planes: parameters normal, offset

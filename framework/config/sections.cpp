@@ -365,8 +365,8 @@ std::vector<std::string> types_of(const std::string& section) {
 
 const std::vector<std::string>& top_sections() {
   static const std::vector<std::string> names = {
-      "include",  "data",  "sampler", "optical_model", "estimator", "lights", "illumination", "camera",  "clip",
-      "sampling", "image", "limits",        "backend",   "axes",   "reference",    "metrics", "expect"};
+      "include",  "data",  "sampler", "optical_model", "estimator", "lights",    "illumination", "camera", "clip",
+      "sampling", "image", "limits",  "backend",       "axes",      "reference", "metrics",      "expect"};
   return names;
 }
 

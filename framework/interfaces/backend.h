@@ -81,8 +81,8 @@ struct FrameResult {
   FrameCounters counters;
   std::vector<PhaseTime> times;
   /// Of the light volume, over its points: "min", "max", "mean", "deviation"; where its pass knows a standard error,
-  /// the root of its mean square and the largest: "error_rms", "error_max". Empty without a light volume. Of a pass that
-  /// finds the image itself only those two, of its radiance.
+  /// the root of its mean square and the largest: "error_rms", "error_max". Empty without a light volume. Of a pass
+  /// that finds the image itself only those two, of its radiance.
   std::vector<std::pair<std::string, double>> light;
 };
 

@@ -1,6 +1,6 @@
-// A grid in blocks of their own level of detail (flat blocking: P. Ljung, C. Lundstroem, A. Ynnerman, K. Museth, Transfer
-// Function Based Adaptive Decompression for Volume Rendering of Large Medical Data Sets, IEEE VolVis 2004). Kernels find
-// samples by framework/kernel/blocks.kernel.
+// A grid in blocks of their own level of detail (flat blocking: P. Ljung, C. Lundstroem, A. Ynnerman, K. Museth,
+// Transfer Function Based Adaptive Decompression for Volume Rendering of Large Medical Data Sets, IEEE VolVis 2004).
+// Kernels find samples by framework/kernel/blocks.kernel.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace dvrlab {
 
-/// What becomes of samples at the border of two blocks. interblock: a block reaches to the first grid points of the next
-/// ones, which both hold; what lies on a face towards a coarser block is that one's interpolation, so that nothing jumps.
-/// clamp: a block holds what is its own, in the middle of what each sample stands for, and a position is clamped to the
-/// first and the last one (Hernell et al. 2008, section 4).
+/// What becomes of samples at the border of two blocks. interblock: a block reaches to the first grid points of the
+/// next ones, which both hold; what lies on a face towards a coarser block is that one's interpolation, so that nothing
+/// jumps. clamp: a block holds what is its own, in the middle of what each sample stands for, and a position is clamped
+/// to the first and the last one (Hernell et al. 2008, section 4).
 enum class BlockBorder { interblock, clamp };
 
 /// 16^3 voxels at 1 of 5 levels: level l has (16 >> l)^3 samples, with `interblock` ((16 >> l) + 1)^3.
@@ -37,7 +37,8 @@ struct BlockedField : Field {
   /// Of what is stored, in order: the first sample, and its block.
   std::vector<std::int32_t> start, owner;
   std::shared_ptr<const void> macrocells;
-  /// reduction: grid points per sample; error_rms: of the colours of visible voxels, CIELUV; dropped, level_0 to level_4: blocks.
+  /// reduction: grid points per sample; error_rms: of the colours of visible voxels, CIELUV; dropped, level_0 to
+  /// level_4: blocks.
   std::vector<std::pair<std::string, double>> statistics;
 
   /// Volumes at the samples are filled in rows of so many.

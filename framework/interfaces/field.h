@@ -53,8 +53,8 @@ struct GridField : Field {
   std::shared_ptr<const void> voxels;
   std::uint64_t count() const { return std::uint64_t(dims[0]) * std::uint64_t(dims[1]) * std::uint64_t(dims[2]); }
   std::uint64_t bytes() const;
-  double at(int i, int j, int k) const;            // stored value
-  mutable std::shared_ptr<const void> macrocells;  // the scene stage's value ranges, made at the first use
+  double at(int i, int j, int k) const;                 // stored value
+  mutable std::shared_ptr<const void> macrocells;       // the scene stage's value ranges, made at the first use
   mutable std::shared_ptr<const BlockedField> blocked;  // the last arrangement in blocks, and what it was made for
   mutable std::string blocked_key;
 };

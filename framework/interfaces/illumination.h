@@ -42,8 +42,8 @@ struct LocalShading {
 struct ImageSetting {
   int width = 0, height = 0;
   KernelUnit rays;  // frame_* of framework/kernel/ray.kernel
-  /// Per entry of light_tau, per world length: the source that is lit and the extinction (r, g, b, tau); the source that
-  /// sends by itself (r, g, b, 0).
+  /// Per entry of light_tau, per world length: the source that is lit and the extinction (r, g, b, tau); the source
+  /// that sends by itself (r, g, b, 0).
   std::vector<double> lit, emitted;
   Vector3 background{0, 0, 0};
   bool glows_without_extinction = false;
@@ -51,12 +51,12 @@ struct ImageSetting {
 
 /// What a pass of light volumes is told beside its own parameters.
 struct LightSetting {
-  std::array<int, 3> dims;    // of the light volume: the grid of the data, where they have one
+  std::array<int, 3> dims;               // of the light volume: the grid of the data, where they have one
   const BlockedField* blocks = nullptr;  // whose samples the light volume has instead
-  Affine to_world;            // sampler coordinates -> world relative to the box centre
-  double voxel;               // smallest spacing of that grid, world units
-  double box_diagonal;        // no way to a light is longer in the box
-  std::vector<Light> light;   // directional and point lights; at least one
+  Affine to_world;                       // sampler coordinates -> world relative to the box centre
+  double voxel;                          // smallest spacing of that grid, world units
+  double box_diagonal;                   // no way to a light is longer in the box
+  std::vector<Light> light;              // directional and point lights; at least one
   bool rgb;                   // extinction differs between channels: one light per volume, a channel per colour
   double value_lo, value_hi;  // values of the first and the last entry of light_tau, in the transfer functions' unit
   int entries;                // of light_tau

@@ -14,8 +14,8 @@
 
 namespace dvrlab {
 
-/// A regular grid over the domain's box, both ends included: x fastest, then y, z, channel. Or `blocks`: the samples of the
-/// field's blocks (BlockedField), in rows of dims[0].
+/// A regular grid over the domain's box, both ends included: x fastest, then y, z, channel. Or `blocks`: the samples of
+/// the field's blocks (BlockedField), in rows of dims[0].
 struct LightGrid {
   std::array<int, 3> dims{2, 2, 2};  // each at least 2; with blocks the last is 1
   int channels = 1;                  // 1 to 4
@@ -80,14 +80,14 @@ struct LightVolume {
 /// Everything that fills the light volume of a frame.
 struct LightWork {
   LightPlan plan;
-  KernelUnit rays;                           // light_*: what all stages read (framework/kernel/light_ray.kernel)
-  KernelUnit sampler;                        // the field at positions; of the frame, unless that one walks
-  std::array<double, 3> lo{}, hi{};          // the box in sampler coordinates
-  std::array<int, 3> dims{2, 2, 2};          // of the light volume, where it is a grid
+  KernelUnit rays;                             // light_*: what all stages read (framework/kernel/light_ray.kernel)
+  KernelUnit sampler;                          // the field at positions; of the frame, unless that one walks
+  std::array<double, 3> lo{}, hi{};            // the box in sampler coordinates
+  std::array<int, 3> dims{2, 2, 2};            // of the light volume, where it is a grid
   std::shared_ptr<const BlockedField> blocks;  // of which it has the samples else
-  bool rgb = false;                          // extinction differs between channels
-  std::vector<std::array<double, 3>> color;  // of each light
-  std::uint64_t bytes() const;               // of all volumes that are held at once, at the most
+  bool rgb = false;                            // extinction differs between channels
+  std::vector<std::array<double, 3>> color;    // of each light
+  std::uint64_t bytes() const;                 // of all volumes that are held at once, at the most
 };
 
 /// Planes of the light volume: 1, or 3 where lights or extinction have colours.

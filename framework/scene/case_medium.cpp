@@ -145,8 +145,8 @@ MediumTableOptions table_options(const ResolvedCase& c, const Field& field, cons
   MediumTableOptions o = table_options(c, field);
   o.rgb = terms.rgb();
   // A light volume alone is a factor of all that a segment sends, where all of it is lit and seen at one point.
-  const bool factor = light.mode == Mode::none && !terms.has(Term::E) &&
-                      d.samples == EstimatorDeclaration::Samples::centre;
+  const bool factor =
+      light.mode == Mode::none && !terms.has(Term::E) && d.samples == EstimatorDeclaration::Samples::centre;
   o.full = terms.surfaces() || terms.dirac() || light.mode == Mode::prescribed ||
            (medium.shaded() && light.mode != Mode::none) || (light.light_volume && !factor);
   o.lit_particles = light.mode == Mode::prescribed || light.light_volume;

@@ -75,7 +75,10 @@ void check_case(const ResolvedCase& c, const Registry& registry, Problems& probl
     const Medium medium = model_medium(c, registry, 1.0, 0.0, 1.0, notes);
     const auto& estimator = registry.get<EstimatorPlugin>("estimator", c.estimator.type, "estimator.type");
     refuse_impossible(c, medium, estimator.declaration(c.estimator.parameters));
-    check_tables(c, estimator, table_layout(c, medium, table_options(c, box, medium, light_of(c, registry), estimator.declaration(c.estimator.parameters))));
+    check_tables(c, estimator,
+                 table_layout(c, medium,
+                              table_options(c, box, medium, light_of(c, registry),
+                                            estimator.declaration(c.estimator.parameters))));
   });
   part([&] {
     const std::string refusal = registry.get<BackendPlugin>("backend", c.backend.type, "backend.type")

@@ -97,12 +97,11 @@ void add_points(const LightSetting& s, const Field& field, KernelUnit& unit) {
   for (std::size_t a = 0; a < 3; ++a) scale[a] = (s.dims[a] - 1) / (field.hi[a] - field.lo[a]);
   const auto plane = static_cast<int>(s.points(1).points());
   constexpr double nudge = 1.0 / 256;  // voxels: behind a face, whatever was rounded
-  unit.uniforms.insert(
-      unit.uniforms.end(),
-      {Uniform::integer("light_points_nx", s.dims[0]), Uniform::integer("light_points_ny", s.dims[1]),
-       Uniform::integer("light_points_nz", s.dims[2]), Uniform::integer("light_points_plane", plane),
-       vec("light_points_lo", field.lo), vec("light_points_scale", scale),
-       Uniform::real("light_nudge", nudge * s.voxel)});
+  unit.uniforms.insert(unit.uniforms.end(),
+                       {Uniform::integer("light_points_nx", s.dims[0]), Uniform::integer("light_points_ny", s.dims[1]),
+                        Uniform::integer("light_points_nz", s.dims[2]), Uniform::integer("light_points_plane", plane),
+                        vec("light_points_lo", field.lo), vec("light_points_scale", scale),
+                        Uniform::real("light_nudge", nudge * s.voxel)});
   add_blocks(s.blocks, unit);
 }
 

@@ -15,9 +15,9 @@ namespace dvrlab {
 /// True if one of the case's passes fills a light volume.
 bool fills_light_volume(const ResolvedCase& c, const Registry& registry);
 
-/// Nothing when no pass fills a light volume. `blocks`: of the field, where it lies in such. `sampler` is left open. `shading` holds the lights; `value_per_stored`,
-/// `value_of_zero`: stored values to those of the transfer functions. Throws InputError for a light that a pass cannot
-/// use.
+/// Nothing when no pass fills a light volume. `blocks`: of the field, where it lies in such. `sampler` is left open.
+/// `shading` holds the lights; `value_per_stored`, `value_of_zero`: stored values to those of the transfer functions.
+/// Throws InputError for a light that a pass cannot use.
 std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& registry, const Field& field,
                                       const Medium& medium, const MediumTableOptions& options,
                                       const LocalShading& shading, double value_per_stored, double value_of_zero,

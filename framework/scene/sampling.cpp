@@ -92,8 +92,8 @@ void add_skipping(bool wanted, const Field& field, const BlockedField* blocks, c
   std::array<int, 3> dims{1, 1, 1};
   const bool skip = wanted && grid != nullptr;
   if (skip) {
-    const auto cells = blocks != nullptr ? std::static_pointer_cast<const Macrocells>(blocks->macrocells)
-                                         : macrocells_of(*grid);
+    const auto cells =
+        blocks != nullptr ? std::static_pointer_cast<const Macrocells>(blocks->macrocells) : macrocells_of(*grid);
     dims = cells->dims;
     distance = empty_distance(*cells, occupied);
   }

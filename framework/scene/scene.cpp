@@ -116,9 +116,10 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
   memory.state("transfer function table", static_cast<double>(c.optical_model.parameters.integer("tf_entries")) *
                                               medium_columns * (sizeof(float) + sizeof(double)));
   const std::string sampler = sampler_of(c, field);
-  memory.state("sampler '" + sampler + "'",
-               static_cast<double>(registry.get<SamplerPlugin>("sampler", sampler, "sampler.type")
-                                       .bytes_needed(field, c.sampler.parameters)));
+  memory.state(
+      "sampler '" + sampler + "'",
+      static_cast<double>(
+          registry.get<SamplerPlugin>("sampler", sampler, "sampler.type").bytes_needed(field, c.sampler.parameters)));
   std::vector<std::string> notes;
   const Medium medium = stored_medium(c, registry, field, notes);
   const LocalShading shading = local_shading(c, registry, field, c.image.text("space") == "linear");

@@ -19,11 +19,11 @@ struct Scene {
   std::shared_ptr<const Field> field;
   Medium medium;  // in stored units
   FrameJob job;
-  double step = 0;                 // world units
-  int rays_per_side = 1;           // rays per pixel along x and along y: the job's image is so much larger
-  std::vector<PhaseTime> times;    // of the build: medium, frame tables, estimator tables
+  double step = 0;               // world units
+  int rays_per_side = 1;         // rays per pixel along x and along y: the job's image is so much larger
+  std::vector<PhaseTime> times;  // of the build: medium, frame tables, estimator tables
   std::vector<std::pair<std::string, double>> blocks;  // BlockedField::statistics, where the field lies in such
-  std::vector<std::string> notes;  // conversions, caps: what the log and the result file say
+  std::vector<std::string> notes;                      // conversions, caps: what the log and the result file say
 };
 
 /// Where the case's data plugin finds files.

@@ -103,8 +103,7 @@ std::vector<Lit> lits() {
       {"blocks_clamped", {{"sampler", {{"type", "flat_blocking"}, {"reduction", 3}, {"block_border", "clamp"}}}}},
       {"blocks_of_hybrid", patched(both(hybrid()), {{"sampler", {{"type", "flat_blocking"}, {"reduction", 2}}}})},
       {"blocks_with_points",
-       without_opacity(
-           patched(patched(points, rgb), {{"sampler", {{"type", "flat_blocking"}, {"tolerance", 3}}}}))},
+       without_opacity(patched(patched(points, rgb), {{"sampler", {{"type", "flat_blocking"}, {"tolerance", 3}}}}))},
       {"preintegrated", estimator({{"type", "preintegrated"}, {"table_size", 128}})},
       {"preintegrated_nonlinear",
        estimator({{"type", "preintegrated"}, {"table_size", 128}, {"lookup", "plain"}, {"shading", "nonlinear"}})},

@@ -45,8 +45,7 @@ TEST(BlockFault, ASeamAtABlocksBorderIsFound) {
     const FrameImage right = render(config, vulkan).image;
     std::unique_ptr<FaultyFolder> folder;
     const FrameImage wrong = render(config, vulkan, [&](FrameJob& job) {
-                               folder = std::make_unique<FaultyFolder>(job.kernel_folder, "blocks.kernel",
-                                                                       "  a.f = f;",
+                               folder = std::make_unique<FaultyFolder>(job.kernel_folder, "blocks.kernel", "  a.f = f;",
                                                                        "  a.f = select(a.i == I(15), R(0.0), f);");
                                job.kernel_folder = folder->path();
                              }).image;

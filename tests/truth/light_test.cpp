@@ -105,6 +105,20 @@ TEST_P(Light, TwoLayers) {
   }
 }
 
+// Voxels on faces that the light runs along see what lies on their way, as their neighbours inside do.
+TEST_P(Light, FacesAlongTheLightAreNotLit) {
+  for (const char* pass : {"piecewise", "full"}) {
+    const json config =
+        config_of(0, 2, 21, {{0, 0.5}, {2, 0.5}}, from_right(),
+                  std::string(pass) == "full" ? json{{"type", "shadow_full"}, {"step", 0.5}} : piecewise(4, 4));
+    SKIP_WHEN_NOT_SUPPORTED({
+      const LightVolume v = volume(config);
+      for (std::size_t k = 0; k < v.values->size(); ++k)
+        ASSERT_NEAR((*v.values)[k], std::exp(-0.5 * (2 - double(k % 21) / 10)), 1e-5) << pass << " at " << k;
+    })
+  }
+}
+
 // Surfaces take light: tau_s |dv|, Dirac terms and opaque ranges between a voxel and the light.
 TEST_P(Light, SurfacesCastShadows) {
   json config = config_of(0, 1, 41, {{0, 0}}, from_right(), piecewise(6, 12));

@@ -218,7 +218,8 @@ TEST(PathTracedImage, DirectLightAndTransmittanceAreThoseOfTheMarch) {
   const Traced t = traced(config, walks(1024, {{"components", "direct"}}));
   const double pixels = 144;
   std::printf("mean difference %.1e of radiance, %.1e of transmittance; stated error of a pixel %.1e\n",
-              mean_difference(t.image.color, marched.color), mean_difference(t.image.trans, marched.trans), t.error_rms);
+              mean_difference(t.image.color, marched.color), mean_difference(t.image.trans, marched.trans),
+              t.error_rms);
   EXPECT_LT(std::abs(mean_difference(t.image.color, marched.color)), 4 * t.error_rms / std::sqrt(pixels));
   EXPECT_LT(std::abs(mean_difference(t.image.trans, marched.trans)), 4 * 0.5 / std::sqrt(pixels * 1024));
   double square = 0;
@@ -228,7 +229,8 @@ TEST(PathTracedImage, DirectLightAndTransmittanceAreThoseOfTheMarch) {
   }
   EXPECT_NEAR(std::sqrt(square / (3 * pixels)) / t.error_rms, 1, 0.15) << "the stated error is the error";
   config["optical_model"]["extinction"] = {{0, 0.165}};
-  EXPECT_GT(std::abs(mean_difference(t.image.color, render(config, cpu).image.color)), 6 * t.error_rms / std::sqrt(pixels))
+  EXPECT_GT(std::abs(mean_difference(t.image.color, render(config, cpu).image.color)),
+            6 * t.error_rms / std::sqrt(pixels))
       << "negative control: 10 % more extinction";
 }
 
@@ -253,14 +255,21 @@ TEST(PathTracedImage, AgreesWithTheVolumeAndWithOneOrderOfLocalPiecewise) {
   const Traced t = traced(config, walks(2048, {{"components", "scattered"}, {"orders", 1}, {"albedo", 0.8}}));
   const double error = t.error_rms / 8;  // of the mean over 8 x 8 pixels
   EXPECT_LT(std::abs(mean_difference(t.image.color, by_volume.color)), 5 * error);
-  config["illumination"] = {{{"type", "local_piecewise"}, {"normalisation", "physical"}, {"albedo", 0.8},
-                             {"radius", 18}, {"samples", 36}, {"subdivisions", 2}, {"segment", 2},
-                             {"segment_samples", 8}, {"shadow_ratio", {1, 1, 1}}}};
+  config["illumination"] = {{{"type", "local_piecewise"},
+                             {"normalisation", "physical"},
+                             {"albedo", 0.8},
+                             {"radius", 18},
+                             {"samples", 36},
+                             {"subdivisions", 2},
+                             {"segment", 2},
+                             {"segment_samples", 8},
+                             {"shadow_ratio", {1, 1, 1}}}};
   const FrameImage approximated = render(config, cpu).image;
   double mean = 0;
   for (const float x : t.image.color) mean += double(x) / double(t.image.color.size());
   std::printf("one order: mean %.4f, local piecewise off by %.1e, the volume by %.1e, error %.1e\n", mean,
-              mean_difference(approximated.color, t.image.color), mean_difference(by_volume.color, t.image.color), error);
+              mean_difference(approximated.color, t.image.color), mean_difference(by_volume.color, t.image.color),
+              error);
   EXPECT_LT(std::abs(mean_difference(approximated.color, t.image.color)), 0.03 * mean + 3 * error);
 }
 

@@ -36,8 +36,8 @@ std::array<float, 6> slab(const Medium& medium, double v, double thickness, bool
   Vector3 sent, through;
   for (int c = 0; c < 3; ++c) {
     const double depth = x[std::size_t(column(Term::tau_l, c))] * thickness;
-    const double source = x[std::size_t(column(Term::E, c))] + x[std::size_t(column(Term::P, c))] +
-                          x[std::size_t(column(Term::S_l, c))];
+    const double source =
+        x[std::size_t(column(Term::E, c))] + x[std::size_t(column(Term::P, c))] + x[std::size_t(column(Term::S_l, c))];
     through[std::size_t(c)] = std::exp(-depth);
     sent[std::size_t(c)] = source * thickness * (depth > 1e-9 ? -std::expm1(-depth) / depth : 1.0);
   }

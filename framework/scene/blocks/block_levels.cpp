@@ -96,9 +96,8 @@ class BlockJudge {
     for (int z = 0; z < count; ++z)
       for (int y = 0; y < count; ++y)
         for (int x = 0; x < count; ++x)
-          sample_[std::size_t((z * count + y) * count + x)] =
-              pyramid_.at(level, block[0] * (side >> level) + x, block[1] * (side >> level) + y,
-                          block[2] * (side >> level) + z);
+          sample_[std::size_t((z * count + y) * count + x)] = pyramid_.at(
+              level, block[0] * (side >> level) + x, block[1] * (side >> level) + y, block[2] * (side >> level) + z);
     const auto& b = between_[std::size_t(level)];
     // The next sample; where there is one only, itself.
     const int dx = count > 1 ? 1 : 0, dy = dx * count, dz = dy * count;
@@ -128,12 +127,11 @@ class BlockJudge {
 };
 
 /// Over the voxels that are seen, so that a little matter in an empty block counts.
-double rms(const BlockErrors& e, int level) {
-  return std::sqrt(e.square[std::size_t(level)] / std::max(e.visible, 1));
-}
+double rms(const BlockErrors& e, int level) { return std::sqrt(e.square[std::size_t(level)] / std::max(e.visible, 1)); }
 
 /// The levels that are best when a sample costs `price`, and their samples.
-std::uint64_t at_price(const std::vector<BlockErrors>& blocks, BlockBorder border, double price, std::vector<int>& out) {
+std::uint64_t at_price(const std::vector<BlockErrors>& blocks, BlockBorder border, double price,
+                       std::vector<int>& out) {
   std::uint64_t samples = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     double least = 1e300;
@@ -149,19 +147,26 @@ std::uint64_t at_price(const std::vector<BlockErrors>& blocks, BlockBorder borde
 }
 
 void spend_rest(const std::vector<BlockErrors>& blocks, BlockBorder border, std::uint64_t rest, std::vector<int>& out) {
-  std::vector<std::size_t> order;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (out[b] > 0 && out[b] < BlockedField::dropped) order.push_back(b);
-  const auto more = [&](std::size_t b) { return block_samples(border, out[b] - 1) - block_samples(border, out[b]); };
-  const auto gain = [&](std::size_t b) {
-    const auto& s = blocks[b].square;
-    return (s[std::size_t(out[b])] - s[std::size_t(out[b] - 1)]) / more(b);
+  struct Finer {
+    std::size_t block;
+    int level;
+    double gain;  // per sample
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return gain(a) > gain(b); });
-  for (const std::size_t b : order) {
-    if (std::uint64_t(more(b)) > rest || !(gain(b) > 0)) continue;
-    rest -= std::uint64_t(more(b));
-    --out[b];
+  const auto more = [&](std::size_t b, int level) {
+    return block_samples(border, level) - block_samples(border, out[b]);
+  };
+  std::vector<Finer> finer;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int l = 0; l < out[b]; ++l) {
+      const auto& s = blocks[b].square;
+      const double gain = (s[std::size_t(out[b])] - s[std::size_t(l)]) / more(b, l);
+      if (gain > 0) finer.push_back({b, l, gain});
+    }
+  std::stable_sort(finer.begin(), finer.end(), [](const Finer& a, const Finer& b) { return a.gain > b.gain; });
+  for (const Finer& f : finer) {
+    if (f.level >= out[f.block] || std::uint64_t(more(f.block, f.level)) > rest) continue;
+    rest -= std::uint64_t(more(f.block, f.level));
+    out[f.block] = f.level;
   }
 }
 

@@ -14,7 +14,7 @@ namespace dvrlab {
 struct BlockErrors {
   /// Sum over its voxels of BlockColors::square per level; the last: if it is dropped, infinite where it may not be.
   std::array<double, BlockedField::levels + 1> square{};
-  int visible = 0;  // of its voxels
+  int visible = 0;       // of its voxels
   float lo = 0, hi = 0;  // values any of which may stand for it when it is dropped
 };
 
@@ -24,8 +24,9 @@ int block_samples(BlockBorder border, int level);
 std::vector<BlockErrors> block_errors(const GridField& grid, const BlockPyramid& pyramid, BlockBorder border,
                                       const BlockColors& colors, const ArrangeInput& input);
 
-/// A level per block, or BlockedField::dropped: empty ones, and those with little to be seen. With a wanted reduction: those with the smallest sum of
-/// squares that fit, by Lagrange's multiplier, and what is left over goes where it gains most.
+/// A level per block, or BlockedField::dropped: empty ones, and those with little to be seen. With a wanted reduction:
+/// those with the smallest sum of squares that fit, by Lagrange's multiplier, and what is left over goes where it gains
+/// most.
 std::vector<int> choose_levels(const std::vector<BlockErrors>& blocks, const BlockChoice& choice,
                                std::uint64_t grid_points);
 

@@ -9,7 +9,8 @@
 namespace dvrlab {
 
 /// interblock: level l has every 2^l-th grid point, so that noise, and with it what transfer functions make of it on
-/// average, stays what it is. clamp: the mean of 2^l voxels along each axis. Beyond the last grid point its value goes on.
+/// average, stays what it is. clamp: the mean of 2^l voxels along each axis. Beyond the last grid point its value goes
+/// on.
 class BlockPyramid {
  public:
   BlockPyramid(const GridField& grid, BlockBorder border);

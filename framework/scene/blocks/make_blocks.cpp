@@ -25,8 +25,8 @@ std::array<int, 3> position(const BlockedField& f, std::size_t block) {
 template <class T>
 T rounded(double x) {
   if constexpr (std::is_floating_point_v<T>) return static_cast<T>(x);
-  return static_cast<T>(std::clamp(std::floor(x + 0.5), double(std::numeric_limits<T>::min()),
-                                   double(std::numeric_limits<T>::max())));
+  return static_cast<T>(
+      std::clamp(std::floor(x + 0.5), double(std::numeric_limits<T>::min()), double(std::numeric_limits<T>::max())));
 }
 
 /// Values that stand for dropped blocks, one of each block's range: as few as do. Which one, per dropped block.
@@ -97,9 +97,7 @@ double inside(const BlockedField& f, std::size_t block, const T* values, const s
     w[a] = double(local - i[a] * step) / step;
   }
   const T* v = values + f.first(block);
-  const auto at = [&](int x, int y, int z) {
-    return double(v[((i[2] + z) * n + i[1] + y) * n + i[0] + x]);
-  };
+  const auto at = [&](int x, int y, int z) { return double(v[((i[2] + z) * n + i[1] + y) * n + i[0] + x]); };
   const auto along = [&](int y, int z) { return at(0, y, z) + w[0] * (at(1, y, z) - at(0, y, z)); };
   const double y0 = along(0, 0) + w[1] * (along(1, 0) - along(0, 0));
   const double y1 = along(0, 1) + w[1] * (along(1, 1) - along(0, 1));
@@ -232,9 +230,9 @@ std::span<const std::byte> raw(const std::vector<T>& x) {
 }
 
 std::string key_of(const BlockChoice& choice, const ArrangeInput& input) {
-  std::vector<double> numbers = {double(choice.border), choice.reduction,     choice.tolerance,
-                                 double(input.entries), input.lo,             input.hi,
-                                 double(input.cells),   double(input.linear)};
+  std::vector<double> numbers = {
+      double(choice.border), choice.reduction,    choice.tolerance, double(input.entries), input.lo, input.hi,
+      double(input.cells),   double(input.linear)};
   for (const OpaqueRange& o : input.medium.opaque) {
     numbers.insert(numbers.end(), {o.v0, o.v1});
     for (const auto* colors : {&o.P, &o.S, &o.W})

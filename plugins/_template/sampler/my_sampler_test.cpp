@@ -9,11 +9,7 @@ namespace {
 /// A ramp of 5 grid points over [0, 1] along x whose value is its own extinction, seen along x.
 nlohmann::json ramp(const std::string& sampler) {
   return {
-      {"data",
-       {{"type", "procedural"},
-        {"field", "ramp"},
-        {"bounds", {{0, 0, 0}, {1, 1, 1}}},
-        {"size", {5, 5, 5}}}},
+      {"data", {{"type", "procedural"}, {"field", "ramp"}, {"bounds", {{0, 0, 0}, {1, 1, 1}}}, {"size", {5, 5, 5}}}},
       {"sampler", {{"type", sampler}}},
       {"optical_model", {{"type", "absorption_emission"}, {"extinction", {{0, 0}, {1, 1}}}}},
       {"estimator", {{"type", "direct"}}},

@@ -191,8 +191,7 @@ class Planner {
       std::string label = order > 1 ? "scatter, order " + std::to_string(order) : "scatter";
       if (at_once < count) label += ", directions " + std::to_string(from + 1) + " to " + std::to_string(to);
       before = add(
-          "scatter", label, s_.points(s_.channels_from(first)), first, 0,
-          scatter_uniforms(from, to, more >= 0, order),
+          "scatter", label, s_.points(s_.channels_from(first)), first, 0, scatter_uniforms(from, to, more >= 0, order),
           {{"local_piecewise_scatter_light", light},
            {"local_piecewise_scatter_shadow", shadow_, true},
            {"local_piecewise_scatter_more", more},

@@ -16,7 +16,8 @@ const Parameter parameters[] = {
      "How much less is kept, with the least error of the colours; 1: everything, the grid itself; 0: by tolerance.",
      pixels, "", "12"},
     {"tolerance", number, "CIELUV", "1", "[0,inf)",
-     "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference. Where reduction is 0.",
+     "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference. "
+     "Where reduction is 0.",
      pixels, R"({"sampler":{"reduction":0}})", "8"},
     {"block_border", choice, "", "\"interblock\"", "interblock|clamp",
      "interblock: continuous across blocks; clamp: each block alone, its positions clamped to its samples (the "
@@ -60,8 +61,7 @@ class FlatBlocking : public SamplerPlugin {
     const bool whole = f.border == BlockBorder::interblock &&
                        std::all_of(f.record.begin(), f.record.end(), [](std::int32_t r) { return (r & 7) == 0; });
     unit.uniforms.push_back(Uniform::constant_integer("flat_blocking_whole", whole ? 1 : 0));
-    unit.buffers = {
-        Buffer{"flat_blocking_voxels", element_of[static_cast<std::size_t>(f.type)], f.values, f.samples}};
+    unit.buffers = {Buffer{"flat_blocking_voxels", element_of[static_cast<std::size_t>(f.type)], f.values, f.samples}};
     return unit;
   }
 
