@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,11 +23,13 @@ namespace dvrlab {
 /// to the first and the last one (Hernell et al. 2008, section 4).
 enum class BlockBorder { interblock, clamp };
 
-/// 16^3 voxels at 1 of 5 levels: level l has (16 >> l)^3 samples, with `interblock` ((16 >> l) + 1)^3.
+/// side^3 voxels at one of log2(side) + 1 levels: level l has (side >> l)^3 samples, with `interblock`
+/// ((side >> l) + 1)^3.
 struct BlockedField : Field {
-  static constexpr int side = 16, levels = 5;
-  static constexpr int dropped = levels;  // as a level: nothing but one invisible value, shared by several blocks
+  static constexpr int most_levels = 6;
+  static constexpr int dropped = 7;  // as a level: nothing but one invisible value, shared by several blocks
 
+  int side = 16;                       // 8, 16 or 32
   std::array<int, 3> dims{0, 0, 0};    // grid points of what was put into blocks
   std::array<int, 3> blocks{0, 0, 0};  // per axis
   BlockBorder border = BlockBorder::interblock;
@@ -37,8 +40,8 @@ struct BlockedField : Field {
   /// Of what is stored, in order: the first sample, and its block.
   std::vector<std::int32_t> start, owner;
   std::shared_ptr<const void> macrocells;
-  /// reduction: grid points per sample; error_rms: of the colours of visible voxels, CIELUV; dropped, level_0 to
-  /// level_4: blocks.
+  /// reduction: grid points per sample; error_rms: of the colours of visible voxels, CIELUV; dropped,
+  /// level_0, ...: blocks.
   std::vector<std::pair<std::string, double>> statistics;
 
   /// Volumes at the samples are filled in rows of so many.
@@ -53,6 +56,7 @@ struct BlockedField : Field {
 
 /// How the blocks' levels are chosen.
 struct BlockChoice {
+  int side = 16;  // voxels of a block along an axis: 8, 16 or 32
   BlockBorder border = BlockBorder::interblock;
   /// Grid points per sample that are wanted, 1: every block at full resolution, and none dropped; 0: by `tolerance`.
   double reduction = 0;
@@ -60,6 +64,9 @@ struct BlockChoice {
   /// it is taken.
   double tolerance = 1;
 };
+
+/// Levels of blocks of so many voxels along an axis.
+inline int levels_of(int side) { return std::countr_zero(static_cast<unsigned>(side)) + 1; }
 
 /// What a sampler that keeps a form of its own of the field is told of the case.
 struct ArrangeInput {

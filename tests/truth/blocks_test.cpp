@@ -34,11 +34,13 @@ TEST_P(Blocks, AtOneToOneAreTheGrid) {
       {{{"type", "local_piecewise"}, {"normalisation", "physical"}, {"orders", 2}, {"samples", 3}}},
       {{{"type", "blinn_phong"}}, {{"type", "shadow_full"}}},
       {{{"type", "local_ambient_occlusion"}, {"radius", 5}, {"samples", 3}}}};
-  for (const json& pass : passes) {
+  const char* const sides[] = {"8", "16", "32"};
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    const json& pass = passes[k];
     json config = smooth();
     config["illumination"] = pass;
     config["optical_model"]["shaded"] = !pass.empty() && pass[0]["type"] == "blinn_phong";
-    config["sampler"] = blocks({{"reduction", 1}});
+    config["sampler"] = blocks({{"reduction", 1}, {"block", sides[k % 3]}});
     SKIP_WHEN_NOT_SUPPORTED({
       const FrameImage whole = render(config, GetParam()).image;
       config.erase("sampler");
@@ -65,7 +67,8 @@ double jump(const json& sampler) {
 
 TEST(BlockBorders, InterblockHasNoSeamAndClampHas) {
   const double grid = jump({{"type", "grid"}});
-  const double interblock = jump(blocks({{"reduction", 4}}));
+  const double interblock =
+      std::max(jump(blocks({{"reduction", 4}})), jump(blocks({{"reduction", 4}, {"block", "8"}})));
   const double clamp = jump(blocks({{"reduction", 4}, {"block_border", "clamp"}}));
   std::printf("largest step of the value over 0.02 voxels: grid %.2e, interblock %.2e, clamp %.2e\n", grid, interblock,
               clamp);
@@ -130,9 +133,10 @@ TEST_P(Blocks, ErrorFallsWithWhatIsKept) {
 }
 
 TEST_P(Blocks, SkippingChangesNoBit) {
-  for (const char* border : {"interblock", "clamp"}) {
+  for (const auto& [border, side] :
+       {std::pair{"interblock", "8"}, {"interblock", "16"}, {"interblock", "32"}, {"clamp", "8"}, {"clamp", "32"}}) {
     json config = plates();
-    config["sampler"] = blocks({{"reduction", 6}, {"block_border", border}});
+    config["sampler"] = blocks({{"reduction", 6}, {"block_border", border}, {"block", side}});
     config["estimator"] = {{"type", "preintegrated"}, {"table_size", 128}};
     SKIP_WHEN_NOT_SUPPORTED({
       const FrameResult skipped = render(config, GetParam());

@@ -12,16 +12,16 @@ namespace dvrlab {
 
 /// A block as the choice sees it.
 struct BlockErrors {
-  /// Sum over its voxels of BlockColors::square per level; the last: if it is dropped, infinite where it may not be.
-  std::array<double, BlockedField::levels + 1> square{};
+  /// Sum over its voxels of BlockColors::square per level; [dropped]: if it is, infinite where it may not be.
+  std::array<double, BlockedField::dropped + 1> square{};
   int visible = 0;       // of its voxels
   float lo = 0, hi = 0;  // values any of which may stand for it when it is dropped
 };
 
 /// Samples that a block of a level takes: whole eights; dropped, none.
-int block_samples(BlockBorder border, int level);
+int block_samples(const BlockChoice& choice, int level);
 
-std::vector<BlockErrors> block_errors(const GridField& grid, const BlockPyramid& pyramid, BlockBorder border,
+std::vector<BlockErrors> block_errors(const GridField& grid, const BlockPyramid& pyramid, const BlockChoice& choice,
                                       const BlockColors& colors, const ArrangeInput& input);
 
 /// A level per block, or BlockedField::dropped: empty ones, and those with little to be seen. With a wanted reduction:

@@ -18,12 +18,13 @@ std::size_t place(const std::array<int, 3>& n, int x, int y, int z) {
 
 }  // namespace
 
-BlockPyramid::BlockPyramid(const GridField& grid, BlockBorder border) : grid_(grid), border_(border) {
-  if (border == BlockBorder::interblock) return;
-  for (int l = 0; l < BlockedField::levels; ++l)
+BlockPyramid::BlockPyramid(const GridField& grid, const BlockChoice& choice) : grid_(grid), choice_(choice) {
+  if (choice.border == BlockBorder::interblock) return;
+  const int levels = levels_of(choice.side);
+  for (int l = 0; l < levels; ++l)
     for (std::size_t a = 0; a < 3; ++a)
-      dims_[std::size_t(l)][a] = ((grid.dims[a] - 1) / BlockedField::side + 1) * (BlockedField::side >> l);
-  for (int l = 1; l < BlockedField::levels; ++l) fill(l);
+      dims_[std::size_t(l)][a] = ((grid.dims[a] - 1) / choice.side + 1) * (choice.side >> l);
+  for (int l = 1; l < levels; ++l) fill(l);
 }
 
 float BlockPyramid::voxel(int x, int y, int z) const {
@@ -45,7 +46,7 @@ float BlockPyramid::voxel(int x, int y, int z) const {
 }
 
 float BlockPyramid::at(int level, int x, int y, int z) const {
-  if (border_ == BlockBorder::interblock) return voxel(x << level, y << level, z << level);
+  if (choice_.border == BlockBorder::interblock) return voxel(x << level, y << level, z << level);
   if (level == 0) return voxel(x, y, z);
   return values_[std::size_t(level)][place(dims_[std::size_t(level)], x, y, z)];
 }
@@ -65,12 +66,12 @@ void BlockPyramid::fill(int level) {
   });
 }
 
-std::uint64_t BlockPyramid::bytes(const std::array<int, 3>& dims, BlockBorder border) {
-  if (border == BlockBorder::interblock) return 0;
+std::uint64_t BlockPyramid::bytes(const std::array<int, 3>& dims, const BlockChoice& choice) {
+  if (choice.border == BlockBorder::interblock) return 0;
   std::uint64_t numbers = 0;
-  for (int l = 1; l < BlockedField::levels; ++l) {
+  for (int l = 1; l < levels_of(choice.side); ++l) {
     std::uint64_t points = 1;
-    for (const int n : dims) points *= std::uint64_t(((n - 1) / BlockedField::side + 1) * (BlockedField::side >> l));
+    for (const int n : dims) points *= std::uint64_t(((n - 1) / choice.side + 1) * (choice.side >> l));
     numbers += points;
   }
   return numbers * sizeof(float);

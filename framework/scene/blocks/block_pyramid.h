@@ -13,19 +13,19 @@ namespace dvrlab {
 /// on.
 class BlockPyramid {
  public:
-  BlockPyramid(const GridField& grid, BlockBorder border);
+  BlockPyramid(const GridField& grid, const BlockChoice& choice);
   /// The sample of a level at (x, y, z), counted over the whole grid. Level 0: the stored value.
   float at(int level, int x, int y, int z) const;
-  static std::uint64_t bytes(const std::array<int, 3>& dims, BlockBorder border);
+  static std::uint64_t bytes(const std::array<int, 3>& dims, const BlockChoice& choice);
 
  private:
   float voxel(int x, int y, int z) const;
   void fill(int level);
 
   const GridField& grid_;
-  BlockBorder border_;
-  std::array<std::array<int, 3>, BlockedField::levels> dims_{};
-  std::array<std::vector<float>, BlockedField::levels> values_;  // of level 0: nothing
+  BlockChoice choice_;
+  std::array<std::array<int, 3>, BlockedField::most_levels> dims_{};
+  std::array<std::vector<float>, BlockedField::most_levels> values_;  // of level 0: nothing
 };
 
 }  // namespace dvrlab

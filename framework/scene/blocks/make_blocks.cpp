@@ -14,8 +14,6 @@
 namespace dvrlab {
 namespace {
 
-constexpr int side = BlockedField::side, levels = BlockedField::levels;
-
 std::array<int, 3> position(const BlockedField& f, std::size_t block) {
   const auto n = f.blocks;
   const int b = int(block);
@@ -46,8 +44,8 @@ std::vector<float> stand_ins(const std::vector<BlockErrors>& errors, const std::
 }
 
 /// Where the blocks' samples lie. Returns how many there are, without the end of the last row.
-std::uint64_t lay_out(BlockedField& f, const std::vector<int>& level, const std::vector<std::size_t>& which,
-                      std::size_t stand_in_count) {
+std::uint64_t lay_out(BlockedField& f, const BlockChoice& choice, const std::vector<int>& level,
+                      const std::vector<std::size_t>& which, std::size_t stand_in_count) {
   std::uint64_t next = 0;
   const auto take = [&](std::size_t block, int samples) {
     const std::uint64_t first = next;
@@ -62,7 +60,7 @@ std::uint64_t lay_out(BlockedField& f, const std::vector<int>& level, const std:
   f.record.resize(level.size());
   for (std::size_t b = 0; b < level.size(); ++b) {
     if (level[b] != BlockedField::dropped) {
-      f.record[b] = take(b, block_samples(f.border, level[b])) + level[b];
+      f.record[b] = take(b, block_samples(choice, level[b])) + level[b];
       continue;
     }
     std::int32_t& first = shared[which[b]];
@@ -92,7 +90,7 @@ double inside(const BlockedField& f, std::size_t block, const T* values, const s
   std::array<int, 3> i;
   std::array<double, 3> w;
   for (std::size_t a = 0; a < 3; ++a) {
-    const int local = point[a] - b[a] * side;
+    const int local = point[a] - b[a] * f.side;
     i[a] = std::min(local / step, n - 2);
     w[a] = double(local - i[a] * step) / step;
   }
@@ -127,7 +125,7 @@ std::size_t governing(const BlockedField& f, std::size_t block, const std::array
 template <class T>
 void conform_values(const BlockedField& f, T* values) {
   if (f.border == BlockBorder::clamp) return;
-  for (int level = levels - 2; level >= 0; --level)
+  for (int level = levels_of(f.side) - 2; level >= 0; --level)
     parallel_ranges(f.record.size(), 16, [&](std::uint64_t begin, std::uint64_t end) {
       for (std::uint64_t block = begin; block < end; ++block) {
         if (f.level(block) != level) continue;
@@ -138,7 +136,8 @@ void conform_values(const BlockedField& f, T* values) {
           if (!on_face(x) && !on_face(y) && !on_face(z)) return;
           const std::size_t other = governing(f, block, {x, y, z});
           if (other == block) return;
-          const std::array<int, 3> point = {b[0] * side + x * step, b[1] * side + y * step, b[2] * side + z * step};
+          const std::array<int, 3> point = {b[0] * f.side + x * step, b[1] * f.side + y * step,
+                                            b[2] * f.side + z * step};
           values[sample] = rounded<T>(inside(f, other, values, point));
         });
       }
@@ -155,7 +154,7 @@ std::shared_ptr<const Macrocells> ranges(const BlockedField& f, const T* values)
   m->hi.assign(count, -3e38f);
   const bool shared = f.border == BlockBorder::interblock;
   // Of a block with its own samples any may be what a position near its border is clamped to.
-  const auto add = [&](std::size_t cell, std::size_t block, const std::array<int, 3>& half) {
+  const auto add = [&](std::size_t cell, std::size_t block, const std::array<int, 3>& from) {
     const int level = f.level(block);
     const auto take = [&](T v) {
       m->lo[cell] = std::min(m->lo[cell], float(v));
@@ -164,22 +163,26 @@ std::shared_ptr<const Macrocells> ranges(const BlockedField& f, const T* values)
     if (level == BlockedField::dropped) return take(values[f.first(block)]);
     const int step = 1 << level;
     const auto far = [&](std::size_t a, int i) {
-      return shared && (i * step < 8 * half[a] - (step - 1) || i * step > 8 * half[a] + 8 + (step - 1));
+      return shared && (i * step < from[a] - (step - 1) || i * step > from[a] + 8 + (step - 1));
     };
     each_sample(f, block, [&](std::size_t sample, int x, int y, int z) {
       if (!far(0, x) && !far(1, y) && !far(2, z)) take(values[sample]);
     });
   };
+  const int per_block = f.side / 8;  // macrocells
   parallel_ranges(count, 1, [&](std::uint64_t begin, std::uint64_t end) {
     for (std::uint64_t cell = begin; cell < end; ++cell) {
       const int c = int(cell);
       const std::array<int, 3> p = {c % m->dims[0], c / m->dims[0] % m->dims[1], c / (m->dims[0] * m->dims[1])};
-      std::array<int, 3> to;
-      for (std::size_t a = 0; a < 3; ++a) to[a] = std::min((p[a] + (shared ? 0 : 1)) / 2, f.blocks[a] - 1);
-      for (int z = p[2] / 2; z <= to[2]; ++z)
-        for (int y = p[1] / 2; y <= to[1]; ++y)
-          for (int x = p[0] / 2; x <= to[0]; ++x)
-            add(cell, std::size_t((z * f.blocks[1] + y) * f.blocks[0] + x), {p[0] & 1, p[1] & 1, p[2] & 1});
+      std::array<int, 3> to, from;
+      for (std::size_t a = 0; a < 3; ++a) {
+        to[a] = std::min((p[a] + (shared ? 0 : 1)) / per_block, f.blocks[a] - 1);
+        from[a] = p[a] % per_block * 8;
+      }
+      for (int z = p[2] / per_block; z <= to[2]; ++z)
+        for (int y = p[1] / per_block; y <= to[1]; ++y)
+          for (int x = p[0] / per_block; x <= to[0]; ++x)
+            add(cell, std::size_t((z * f.blocks[1] + y) * f.blocks[0] + x), from);
     }
   });
   return m;
@@ -194,7 +197,7 @@ void fill(BlockedField& f, const BlockPyramid& pyramid, const std::vector<float>
       const int level = f.level(block);
       if (level == BlockedField::dropped) continue;
       const std::array<int, 3> b = position(f, block);
-      const int n = side >> level;
+      const int n = f.side >> level;
       each_sample(f, block, [&](std::size_t sample, int x, int y, int z) {
         (*values)[sample] = rounded<T>(double(pyramid.at(level, b[0] * n + x, b[1] * n + y, b[2] * n + z)));
       });
@@ -211,7 +214,7 @@ void fill(BlockedField& f, const BlockPyramid& pyramid, const std::vector<float>
 void add_statistics(BlockedField& f, const std::vector<BlockErrors>& errors, const std::vector<int>& level,
                     double grid_points, std::uint64_t samples) {
   double square = 0, voxels = 0;
-  std::array<int, levels + 1> count{};
+  std::array<int, BlockedField::dropped + 1> count{};
   for (std::size_t b = 0; b < level.size(); ++b) {
     ++count[std::size_t(level[b])];
     voxels += errors[b].visible;
@@ -220,8 +223,9 @@ void add_statistics(BlockedField& f, const std::vector<BlockErrors>& errors, con
   f.statistics = {{"reduction", grid_points / double(samples)},
                   {"error_rms", voxels > 0 ? std::sqrt(square / voxels) : 0.0},
                   {"bytes", double(f.bytes())},
-                  {"dropped", count[levels]}};
-  for (int l = 0; l < levels; ++l) f.statistics.emplace_back("level_" + std::to_string(l), count[std::size_t(l)]);
+                  {"dropped", count[BlockedField::dropped]}};
+  for (int l = 0; l < levels_of(f.side); ++l)
+    f.statistics.emplace_back("level_" + std::to_string(l), count[std::size_t(l)]);
 }
 
 template <class T>
@@ -259,16 +263,16 @@ std::shared_ptr<const BlockedField> make_blocks(const GridField& grid, const Blo
   auto f = std::make_shared<BlockedField>();
   static_cast<Field&>(*f) = grid;
   f->dims = grid.dims;
+  f->side = choice.side;
   f->border = choice.border;
   f->type = grid.type;
-  for (std::size_t a = 0; a < 3; ++a) f->blocks[a] = (grid.dims[a] - 1) / side + 1;
-  const BlockPyramid pyramid(grid, choice.border);
-  const std::vector<BlockErrors> errors =
-      block_errors(grid, pyramid, choice.border, BlockColors(input, grid.voxel), input);
+  for (std::size_t a = 0; a < 3; ++a) f->blocks[a] = (grid.dims[a] - 1) / choice.side + 1;
+  const BlockPyramid pyramid(grid, choice);
+  const std::vector<BlockErrors> errors = block_errors(grid, pyramid, choice, BlockColors(input, grid.voxel), input);
   const std::vector<int> level = choose_levels(errors, choice, grid.count());
   std::vector<std::size_t> which(errors.size());
   const std::vector<float> stand_in = stand_ins(errors, level, which);
-  const std::uint64_t samples = lay_out(*f, level, which, stand_in.size());
+  const std::uint64_t samples = lay_out(*f, choice, level, which, stand_in.size());
   switch (grid.type) {
     case VoxelType::u8:
       fill<std::uint8_t>(*f, pyramid, stand_in, which);

@@ -19,6 +19,8 @@ const Parameter parameters[] = {
      "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference. "
      "Where reduction is 0.",
      pixels, R"({"sampler":{"reduction":0}})", "8"},
+    {"block", choice, "voxel", "\"16\"", "8|16|32",
+     "Side of a block: small ones follow fine structures, large ones share less of their faces.", pixels, "", "\"8\""},
     {"block_border", choice, "", "\"interblock\"", "interblock|clamp",
      "interblock: continuous across blocks; clamp: each block alone, its positions clamped to its samples (the "
      "paper's).",
@@ -36,17 +38,13 @@ class FlatBlocking : public SamplerPlugin {
   }
   std::uint64_t bytes_needed(const Field& field, const ParameterSet& p) const override {
     const GridField& grid = grid_of(field);
-    const double full = 1.25 * static_cast<double>(grid.bytes());  // with shared faces
+    const double full = 1.5 * static_cast<double>(grid.bytes());  // with shared faces
     return static_cast<std::uint64_t>(full / std::max(1.0, p.number("reduction"))) +
-           BlockPyramid::bytes(grid.dims, border_of(p));
+           BlockPyramid::bytes(grid.dims, choice_of(p));
   }
   std::shared_ptr<const BlockedField> arrange(const Field& field, const ParameterSet& p,
                                               const ArrangeInput& input) const override {
-    BlockChoice choice;
-    choice.border = border_of(p);
-    choice.reduction = p.number("reduction");
-    choice.tolerance = p.number("tolerance");
-    return make_blocks(grid_of(field), choice, input);
+    return make_blocks(grid_of(field), choice_of(p), input);
   }
   KernelUnit bind(const Field& field) const override {
     const auto& f = dynamic_cast<const BlockedField&>(field);
@@ -66,8 +64,13 @@ class FlatBlocking : public SamplerPlugin {
   }
 
  private:
-  static BlockBorder border_of(const ParameterSet& p) {
-    return static_cast<BlockBorder>(p.choice_index("block_border"));
+  static BlockChoice choice_of(const ParameterSet& p) {
+    BlockChoice choice;
+    choice.side = 8 << p.choice_index("block");
+    choice.border = static_cast<BlockBorder>(p.choice_index("block_border"));
+    choice.reduction = p.number("reduction");
+    choice.tolerance = p.number("tolerance");
+    return choice;
   }
   static const GridField& grid_of(const Field& field) {
     const auto* grid = dynamic_cast<const GridField*>(&field);
@@ -81,7 +84,7 @@ class FlatBlocking : public SamplerPlugin {
 }  // namespace
 
 DVRLAB_PLUGIN("sampler", "flat_blocking", "1.0", FlatBlocking, parameters,
-              "a voxel grid in blocks of 16^3 at levels of detail chosen by the transfer functions",
+              "a voxel grid in blocks at levels of detail chosen by the transfer functions",
               "P. Ljung, C. Lundstroem, A. Ynnerman, K. Museth, Transfer Function Based Adaptive Decompression for "
               "Volume Rendering of Large Medical Data Sets, IEEE Symposium on Volume Visualization 2004, "
               "doi:10.1109/SVVG.2004.14")
