@@ -11,14 +11,14 @@
 
 namespace dvrlab::test {
 
-/// 64 x 32 x 32 voxels: faint matter at x < 8, a plate from x = 32 to 34; light from the right.
+/// 64 x 32 x 32 voxels: faint matter at x < 8, a plate from x = 33 to 35; light from the right.
 inline nlohmann::json plates() {
   static const std::string file = [] {
     const auto path = std::filesystem::temp_directory_path() / ("dvrlab_plates_" + std::to_string(::getpid()) + ".raw");
     std::ofstream out(path, std::ios::binary);
     for (int i = 0; i < 64 * 32 * 32; ++i) {
       const int x = i % 64;
-      out.put(static_cast<char>(x < 8 ? 60 : x >= 32 && x <= 34 ? 200 : 0));
+      out.put(static_cast<char>(x < 8 ? 60 : x >= 33 && x <= 35 ? 200 : 0));
     }
     return path.string();
   }();

@@ -140,7 +140,10 @@ TEST_P(Blocks, SkippingChangesNoBit) {
     config["estimator"] = {{"type", "preintegrated"}, {"table_size", 128}};
     SKIP_WHEN_NOT_SUPPORTED({
       const FrameResult skipped = render(config, GetParam());
-      EXPECT_GT(skipped.counters.skipped, 0u);
+      // Two large blocks leave no empty macrocell.
+      if (side != std::string("32")) {
+        EXPECT_GT(skipped.counters.skipped, 0u) << border << " " << side;
+      }
       config["sampling"]["skipping"] = false;
       EXPECT_EQ(differing_values(skipped.image, render(config, GetParam()).image), 0u) << border;
     })

@@ -73,8 +73,7 @@ class BlockJudge {
   void each_voxel(Visit visit) {
     for (int z = 0; z < here_[2]; ++z)
       for (int y = 0; y < here_[1]; ++y)
-        for (int x = 0; x < here_[0]; ++x)
-          visit(voxel_[std::size_t((z * (side_ + 1) + y) * (side_ + 1) + x)], x, y, z);
+        for (int x = 0; x < here_[0]; ++x) visit(voxel_[std::size_t((z * (side_ + 1) + y) * (side_ + 1) + x)], x, y, z);
   }
 
   /// Of a block that is not empty: an invisible value of its own stands for it.

@@ -234,9 +234,15 @@ std::span<const std::byte> raw(const std::vector<T>& x) {
 }
 
 std::string key_of(const BlockChoice& choice, const ArrangeInput& input) {
-  std::vector<double> numbers = {
-      double(choice.border), choice.reduction,    choice.tolerance, double(input.entries), input.lo, input.hi,
-      double(input.cells),   double(input.linear)};
+  std::vector<double> numbers = {double(choice.side),
+                                 double(choice.border),
+                                 choice.reduction,
+                                 choice.tolerance,
+                                 double(input.entries),
+                                 input.lo,
+                                 input.hi,
+                                 double(input.cells),
+                                 double(input.linear)};
   for (const OpaqueRange& o : input.medium.opaque) {
     numbers.insert(numbers.end(), {o.v0, o.v1});
     for (const auto* colors : {&o.P, &o.S, &o.W})
