@@ -196,7 +196,7 @@ std::vector<BlockErrors> block_errors(const GridField& grid, const BlockPyramid&
 }
 
 std::vector<int> choose_levels(const std::vector<BlockErrors>& blocks, const BlockChoice& choice,
-                               std::uint64_t grid_points) {
+                               std::uint64_t grid_points, std::uint64_t kept_back) {
   std::vector<int> out(blocks.size(), BlockedField::dropped);
   if (choice.reduction == 1) return std::vector<int>(blocks.size(), 0);
   if (choice.reduction == 0) {
@@ -205,7 +205,8 @@ std::vector<int> choose_levels(const std::vector<BlockErrors>& blocks, const Blo
         out[b] = out[b] == BlockedField::dropped ? levels_of(choice.side) - 1 : out[b] - 1;
     return out;
   }
-  const auto budget = std::uint64_t(double(grid_points) / choice.reduction);
+  const auto wanted = std::uint64_t(double(grid_points) / choice.reduction);
+  const std::uint64_t budget = wanted - std::min(wanted, kept_back);
   std::uint64_t used = at_price(blocks, choice, 0, out);
   if (used <= budget) return out;
   double low = 1e-9, high = 1e9;

@@ -26,8 +26,8 @@ std::vector<BlockErrors> block_errors(const GridField& grid, const BlockPyramid&
 
 /// A level per block, or BlockedField::dropped: empty ones, and those with little to be seen. With a wanted reduction:
 /// those with the smallest sum of squares that fit, by Lagrange's multiplier, and what is left over goes where it gains
-/// most.
+/// most. `kept_back`: samples that are needed for something else.
 std::vector<int> choose_levels(const std::vector<BlockErrors>& blocks, const BlockChoice& choice,
-                               std::uint64_t grid_points);
+                               std::uint64_t grid_points, std::uint64_t kept_back);
 
 }  // namespace dvrlab

@@ -275,9 +275,20 @@ std::shared_ptr<const BlockedField> make_blocks(const GridField& grid, const Blo
   for (std::size_t a = 0; a < 3; ++a) f->blocks[a] = (grid.dims[a] - 1) / choice.side + 1;
   const BlockPyramid pyramid(grid, choice);
   const std::vector<BlockErrors> errors = block_errors(grid, pyramid, choice, BlockColors(input, grid.voxel), input);
-  const std::vector<int> level = choose_levels(errors, choice, grid.count());
+  std::vector<int> level;
   std::vector<std::size_t> which(errors.size());
-  const std::vector<float> stand_in = stand_ins(errors, level, which);
+  std::vector<float> stand_in;
+  // What stands for dropped blocks is kept, too: it is known once the levels are, and there are few of them.
+  std::uint64_t before = std::numeric_limits<std::uint64_t>::max();
+  for (std::uint64_t kept_back = 0;; kept_back += 8 * stand_in.size()) {
+    level = choose_levels(errors, choice, grid.count(), kept_back);
+    stand_in = stand_ins(errors, level, which);
+    std::uint64_t sum = 8 * stand_in.size();
+    for (const int l : level) sum += std::uint64_t(block_samples(choice, l));
+    const bool fits = choice.reduction <= 1 || double(sum) * choice.reduction <= double(grid.count());
+    if (fits || stand_in.empty() || sum >= before) break;
+    before = sum;
+  }
   const std::uint64_t samples = lay_out(*f, choice, level, which, stand_in.size());
   switch (grid.type) {
     case VoxelType::u8:
