@@ -101,7 +101,7 @@ std::vector<Lit> lits() {
       {"engine", engine()},
       {"blocks", {{"sampler", {{"type", "flat_blocking"}, {"reduction", 3}}}}},
       {"blocks_clamped",
-       {{"sampler", {{"type", "flat_blocking"}, {"reduction", 3}, {"block_border", "clamp"}, {"block", "8"}}}}},
+       {{"sampler", {{"type", "flat_blocking"}, {"reduction", 3}, {"block_border", "clamp"}, {"block", 8}}}}},
       {"blocks_of_hybrid", patched(both(hybrid()), {{"sampler", {{"type", "flat_blocking"}, {"reduction", 2}}}})},
       {"blocks_with_points",
        without_opacity(patched(patched(points, rgb), {{"sampler", {{"type", "flat_blocking"}, {"tolerance", 3}}}}))},

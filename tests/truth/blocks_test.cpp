@@ -34,7 +34,7 @@ TEST_P(Blocks, AtOneToOneAreTheGrid) {
       {{{"type", "local_piecewise"}, {"normalisation", "physical"}, {"orders", 2}, {"samples", 3}}},
       {{{"type", "blinn_phong"}}, {{"type", "shadow_full"}}},
       {{{"type", "local_ambient_occlusion"}, {"radius", 5}, {"samples", 3}}}};
-  const char* const sides[] = {"8", "16", "32"};
+  const int sides[] = {8, 16, 32};
   for (std::size_t k = 0; k < passes.size(); ++k) {
     const json& pass = passes[k];
     json config = smooth();
@@ -67,8 +67,7 @@ double jump(const json& sampler) {
 
 TEST(BlockBorders, InterblockHasNoSeamAndClampHas) {
   const double grid = jump({{"type", "grid"}});
-  const double interblock =
-      std::max(jump(blocks({{"reduction", 4}})), jump(blocks({{"reduction", 4}, {"block", "8"}})));
+  const double interblock = std::max(jump(blocks({{"reduction", 4}})), jump(blocks({{"reduction", 4}, {"block", 8}})));
   const double clamp = jump(blocks({{"reduction", 4}, {"block_border", "clamp"}}));
   std::printf("largest step of the value over 0.02 voxels: grid %.2e, interblock %.2e, clamp %.2e\n", grid, interblock,
               clamp);
@@ -134,14 +133,14 @@ TEST_P(Blocks, ErrorFallsWithWhatIsKept) {
 
 TEST_P(Blocks, SkippingChangesNoBit) {
   for (const auto& [border, side] :
-       {std::pair{"interblock", "8"}, {"interblock", "16"}, {"interblock", "32"}, {"clamp", "8"}, {"clamp", "32"}}) {
+       {std::pair{"interblock", 8}, {"interblock", 16}, {"interblock", 32}, {"clamp", 8}, {"clamp", 32}}) {
     json config = plates();
     config["sampler"] = blocks({{"reduction", 6}, {"block_border", border}, {"block", side}});
     config["estimator"] = {{"type", "preintegrated"}, {"table_size", 128}};
     SKIP_WHEN_NOT_SUPPORTED({
       const FrameResult skipped = render(config, GetParam());
       // Two large blocks leave no empty macrocell.
-      if (side != std::string("32")) {
+      if (side != 32) {
         EXPECT_GT(skipped.counters.skipped, 0u) << border << " " << side;
       }
       config["sampling"]["skipping"] = false;
@@ -181,6 +180,24 @@ TEST(BlockBorders, LightConformsToo) {
   const std::vector<float> noise = again;
   conform(*scene.job.light->blocks, again.data());
   EXPECT_NE(again, noise) << "no two levels meet: the test shows nothing";
+}
+
+TEST(BlockInput, WhatCannotBeIsRefusedByName) {
+  const auto refused = [](const json& change, const char* key, const char* word) {
+    json config = smooth();
+    config["sampler"] = blocks({{"reduction", 2}});
+    try {
+      scene_of(patched(config, change));
+      ADD_FAILURE() << change.dump();
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(key), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+    }
+  };
+  refused({{"sampler", {{"block", 12}}}}, "sampler.block", "8, 16 or 32");
+  refused({{"sampler", {{"reduction", 0.5}}}}, "sampler.reduction", "1 to 500");
+  refused({{"data", {{"evaluate", "formula"}}}}, "sampler.type", "voxel grids");
+  refused({{"data", {{"evaluate", "mesh"}, {"size", {5, 5, 5}}}}}, "sampler.type", "voxel grids");
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Blocks, testing::ValuesIn(targets()), target_name);

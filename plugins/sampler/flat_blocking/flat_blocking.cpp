@@ -19,8 +19,9 @@ const Parameter parameters[] = {
      "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference. "
      "Where reduction is 0.",
      pixels, R"({"sampler":{"reduction":0}})", "8"},
-    {"block", choice, "voxel", "\"16\"", "8|16|32",
-     "Side of a block: small ones follow fine structures, large ones share less of their faces.", pixels, "", "\"8\""},
+    {"block", integer, "voxel", "16", "[8,32]",
+     "Side of a block, 8, 16 or 32: small ones follow fine structures, large ones share less of their faces.", pixels,
+     "", "8"},
     {"block_border", choice, "", "\"interblock\"", "interblock|clamp",
      "interblock: continuous across blocks; clamp: each block alone, its positions clamped to its samples (the "
      "paper's).",
@@ -35,6 +36,9 @@ class FlatBlocking : public SamplerPlugin {
     const double r = p.number("reduction");
     if (r != 0 && !(r >= 1 && r <= 500))
       throw InputError(p.path_of("reduction") + ": must be 0, or from 1 to 500 grid points per sample");
+    const long long side = p.integer("block");
+    if (side != 8 && side != 16 && side != 32)
+      throw InputError(p.path_of("block") + ": found " + std::to_string(side) + "; must be 8, 16 or 32");
   }
   std::uint64_t bytes_needed(const Field& field, const ParameterSet& p) const override {
     const GridField& grid = grid_of(field);
@@ -66,7 +70,7 @@ class FlatBlocking : public SamplerPlugin {
  private:
   static BlockChoice choice_of(const ParameterSet& p) {
     BlockChoice choice;
-    choice.side = 8 << p.choice_index("block");
+    choice.side = static_cast<int>(p.integer("block"));
     choice.border = static_cast<BlockBorder>(p.choice_index("block_border"));
     choice.reduction = p.number("reduction");
     choice.tolerance = p.number("tolerance");
