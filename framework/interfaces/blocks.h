@@ -37,7 +37,7 @@ struct BlockedField : Field {
   std::shared_ptr<const void> values;
   std::uint64_t samples = 0;         // a multiple of row
   std::vector<std::int32_t> record;  // per block, x fastest: first sample (a multiple of 8) + level
-  /// Of what is stored, in order: the first sample, and its block.
+  /// Of what is stored, in order: the first sample, and its block, x + 1024 (y + 1024 z).
   std::vector<std::int32_t> start, owner;
   std::shared_ptr<const void> macrocells;
   /// reduction: grid points per sample; error_rms: of the colours of visible voxels, CIELUV; dropped,
@@ -78,8 +78,9 @@ struct ArrangeInput {
   bool linear;                                // colours are linear light, not display values
 };
 
-/// Puts a grid into blocks. Colours of a value are those of a slab of it, one voxel thick, unlit, over black; surfaces
-/// between two values count with their own colour. Throws NotSupported beyond 2^31 samples.
+/// Puts a grid into blocks. Colours of a value are those of a slab of it, one voxel thick, unlit, over black and over
+/// white; surfaces between two values count with their own colour. Throws NotSupported beyond 2^31 samples or 1024
+/// blocks along an axis.
 std::shared_ptr<const BlockedField> make_blocks(const GridField& grid, const BlockChoice& choice,
                                                 const ArrangeInput& input);
 

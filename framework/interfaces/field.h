@@ -103,6 +103,8 @@ class SamplerPlugin : public Plugin {
   virtual AlongRay along_ray() const { return AlongRay::none; }
   /// Bytes that arrange() and bind() will allocate at the most; what they share with the field does not count.
   virtual std::uint64_t bytes_needed(const Field& /*field*/, const ParameterSet& /*parameters*/) const { return 0; }
+  /// Samples of the blocks that arrange() makes, at the most; 0: it makes none.
+  virtual std::uint64_t most_samples(const Field& /*field*/, const ParameterSet& /*parameters*/) const { return 0; }
   /// Blocks that take the field's place, where the sampler reads such.
   virtual std::shared_ptr<const BlockedField> arrange(const Field& /*field*/, const ParameterSet& /*parameters*/,
                                                       const ArrangeInput& /*input*/) const {

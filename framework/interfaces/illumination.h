@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,7 +41,6 @@ struct LocalShading {
 
 /// The case's camera, and what it sees of the medium: for a pass that finds the image itself.
 struct ImageSetting {
-  int width = 0, height = 0;
   KernelUnit rays;  // frame_* of framework/kernel/ray.kernel
   /// Per entry of light_tau, per world length: the source that is lit and the extinction (r, g, b, tau); the source
   /// that sends by itself (r, g, b, 0).
@@ -64,7 +64,8 @@ struct LightSetting {
   bool surfaces;              // some extinction has no length: surfaces, Dirac terms, opaque ranges
   std::uint32_t seed;         // of the case
   bool local_shading;         // a pass of local shading stands beside
-  const ImageSetting* image;
+  std::array<int, 2> image_size;                  // rays
+  std::function<ImageSetting()> image = nullptr;  // made for who asks
 
   /// Sampler coordinates per world length of a unit direction in the world.
   Vector3 sampler_direction(const Vector3& world) const;

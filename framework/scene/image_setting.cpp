@@ -5,14 +5,17 @@
 
 namespace dvrlab {
 
+std::array<int, 2> rays_of_image(const ResolvedCase& c) {
+  const nlohmann::json& size = c.image.json("size");
+  const auto per_side = static_cast<int>(c.image.integer("supersampling"));
+  return {size[0].get<int>() * per_side, size[1].get<int>() * per_side};
+}
+
 ImageSetting image_setting(const ResolvedCase& c, const Field& field, const Medium& medium,
                            const MediumTableOptions& options) {
   ImageSetting s;
-  const nlohmann::json& size = c.image.json("size");
-  const auto per_side = static_cast<int>(c.image.integer("supersampling"));
-  s.width = size[0].get<int>() * per_side;
-  s.height = size[1].get<int>() * per_side;
-  add_camera(c.camera, field, s.width, s.height, s.rays);
+  const auto [width, height] = rays_of_image(c);
+  add_camera(c.camera, field, width, height, s.rays);
   add_clipping(c.clip, field, s.rays);
   const bool linear = c.image.text("space") == "linear";
   s.background = c.image.vector3("background");

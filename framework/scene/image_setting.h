@@ -1,4 +1,4 @@
-// What a pass is told that finds the image itself.
+// The rays of the image, and what a pass is told that finds it itself.
 #pragma once
 
 #include "framework/config/resolved_case.h"
@@ -8,6 +8,9 @@
 #include "framework/scene/medium_table.h"
 
 namespace dvrlab {
+
+/// Columns and rows of rays: pixels times `supersampling`.
+std::array<int, 2> rays_of_image(const ResolvedCase& c);
 
 ImageSetting image_setting(const ResolvedCase& c, const Field& field, const Medium& medium,
                            const MediumTableOptions& options);

@@ -170,8 +170,8 @@ std::shared_ptr<LightWork> light_work(const ResolvedCase& c, const Registry& reg
   setting.surfaces = medium.terms().surfaces() || !medium.dirac.empty() || !medium.opaque.empty();
   setting.seed = static_cast<std::uint32_t>(c.top.integer("seed"));
   setting.local_shading = shading.mode != LocalShading::Mode::none;
-  const ImageSetting image = image_setting(c, field, medium, options);
-  setting.image = &image;
+  setting.image_size = rays_of_image(c);
+  setting.image = [&] { return image_setting(c, field, medium, options); };
 
   auto work = std::make_shared<LightWork>();
   work->plan = plugin.plan(pass->parameters, setting);

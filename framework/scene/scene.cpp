@@ -12,6 +12,7 @@
 #include "framework/scene/case_medium.h"
 #include "framework/scene/cells.h"
 #include "framework/scene/discrete_surfaces.h"
+#include "framework/scene/image_setting.h"
 #include "framework/scene/light_work.h"
 #include "framework/scene/lighting.h"
 #include "framework/scene/macrocells.h"
@@ -63,6 +64,17 @@ KernelUnit light_sampler(const Registry& registry, const Field& field, const Ker
 /// The sampler that reads the field: the config's, else the one that the data names.
 std::string sampler_of(const ResolvedCase& c, const Field& field) {
   return c.sampler.type.empty() ? field.sampler : c.sampler.type;
+}
+
+/// As large as the sampler's blocks can become, with nothing in them; nullptr without blocks.
+std::shared_ptr<const BlockedField> expected_blocks(const ResolvedCase& c, const Registry& registry,
+                                                    const Field& field) {
+  const std::uint64_t samples =
+      registry.get<SamplerPlugin>("sampler", sampler_of(c, field)).most_samples(field, c.sampler.parameters);
+  if (samples == 0) return nullptr;
+  auto blocks = std::make_shared<BlockedField>();
+  blocks->samples = (samples / BlockedField::row + 2) * BlockedField::row;
+  return blocks;
 }
 
 std::shared_ptr<const BlockedField> blocks_of(const ResolvedCase& c, const Registry& registry, const Field& field,
@@ -134,7 +146,7 @@ void state_scene_bytes(const ResolvedCase& c, const Registry& registry, const Fi
     memory.state("mean tables", static_cast<double>(mean_table_bytes(declared.mean_bins, layout.groups + 1,
                                                                      layout.precision == Precision::fp64)));
   if (shading.light_volume) {
-    const auto work = light_work_of(c, registry, field, medium, options, shading, nullptr);
+    const auto work = light_work_of(c, registry, field, medium, options, shading, expected_blocks(c, registry, field));
     const double precisions = precision_of(c) == Precision::fp64 ? 3 : 1;
     memory.state("light volumes", static_cast<double>(work->bytes()) * precisions);
   }
@@ -158,10 +170,10 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   end_phase("medium");
 
   FrameJob& job = scene.job;
-  const nlohmann::json& size = c.image.json("size");
   scene.rays_per_side = static_cast<int>(c.image.integer("supersampling"));
-  job.width = size[0].get<int>() * scene.rays_per_side;
-  job.height = size[1].get<int>() * scene.rays_per_side;
+  const auto [width, height] = rays_of_image(c);
+  job.width = width;
+  job.height = height;
   job.precision = precision_of(c);
   job.kernel_folder = Registry::kernel_folder();
   if (!c.limits.is_null("gpu_buffer")) job.gpu_buffer_limit = std::uint64_t(c.limits.integer("gpu_buffer"));
@@ -175,6 +187,13 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
   const MediumTableOptions options = table_options(c, *field, scene.medium, shading, declared);
   job.rgb = options.rgb;
   job.full = options.full;
+  const OccupiedBins occupied(scene.medium, options, declared.cells);
+  const std::shared_ptr<const BlockedField> blocks =
+      blocks_of(c, registry, *field, scene.medium, options, occupied, declared.cells);
+  if (blocks != nullptr) {
+    end_phase("blocks");
+    scene.blocks = blocks->statistics;
+  }
 
   job.frame.plugin = "frame";
   add_camera(c.camera, *field, job.width, job.height, job.frame);
@@ -182,14 +201,6 @@ Scene build_scene(const ResolvedCase& c, const Registry& registry, std::shared_p
     refuse_tiny_step(*field, scene.step, job.frame);
   add_clipping(c.clip, *field, job.frame);
   add_sampling(c, *field, scene.step, job.frame);
-  const OccupiedBins occupied(scene.medium, options, declared.cells);
-  end_phase("frame tables");
-  const std::shared_ptr<const BlockedField> blocks =
-      blocks_of(c, registry, *field, scene.medium, options, occupied, declared.cells);
-  if (blocks != nullptr) {
-    end_phase("blocks");
-    scene.blocks = blocks->statistics;
-  }
   add_blocks(blocks.get(), job.frame);
   add_skipping(skips(c), *field, blocks.get(), occupied, job.frame);
   // What tables hold: of opaque values only what lies before them.

@@ -13,7 +13,7 @@ const Target vulkan{"vulkan", {{"type", "vulkan"}}};
 // Figure 4 of Hernell et al. 2008, left: rays that come to a dropped block go on by whole segments, and miss the plate.
 TEST(BlockFault, RaysThatDoNotAdvanceMissThePlate) {
   nlohmann::json config = plates();
-  config["sampler"] = {{"type", "flat_blocking"}, {"tolerance", 0}};
+  config["sampler"] = {{"type", "flat_blocking"}, {"levels", "tolerance"}, {"tolerance", 0}};
   try {
     const Scene scene = scene_of(config);
     const BlockedField* blocks = scene.job.light->blocks.get();

@@ -98,7 +98,7 @@ TEST(BlockReduction, IsWhatWasAskedFor) {
 TEST(BlockTolerance, BoundsTheError) {
   for (const double tolerance : {0.0, 0.5, 2.0, 8.0}) {
     json config = smooth();
-    config["sampler"] = blocks({{"tolerance", tolerance}});
+    config["sampler"] = blocks({{"levels", "tolerance"}, {"tolerance", tolerance}});
     const Scene s = scene_of(config);
     for (const auto& [key, x] : s.blocks) {
       if (key == "error_rms") {
@@ -154,7 +154,7 @@ TEST_P(Blocks, LightAdvancesThroughDroppedBlocks) {
   json config = plates();
   SKIP_WHEN_NOT_SUPPORTED({
     const double with_grid = light_behind_the_plate(illuminate(config, GetParam()), nullptr);
-    config["sampler"] = blocks({{"tolerance", 0}});
+    config["sampler"] = blocks({{"levels", "tolerance"}, {"tolerance", 0}});
     const LightVolume light = illuminate(config, GetParam());
     const Scene scene = scene_of(config);
     ASSERT_GT(scene.job.light->blocks->statistics[3].second, 0) << "no block was dropped";
@@ -195,7 +195,7 @@ TEST(BlockInput, WhatCannotBeIsRefusedByName) {
     }
   };
   refused({{"sampler", {{"block", 12}}}}, "sampler.block", "8, 16 or 32");
-  refused({{"sampler", {{"reduction", 0.5}}}}, "sampler.reduction", "1 to 500");
+  refused({{"sampler", {{"reduction", 0.5}}}}, "sampler.reduction", "[1,500]");
   refused({{"data", {{"evaluate", "formula"}}}}, "sampler.type", "voxel grids");
   refused({{"data", {{"evaluate", "mesh"}, {"size", {5, 5, 5}}}}}, "sampler.type", "voxel grids");
 }

@@ -446,6 +446,18 @@ std::vector<std::string> run_of(const json& config) {
   return run;
 }
 
+TEST(LightUpdates, WalksDoNotKnowWhoLooks) {
+  using Run = std::vector<std::string>;
+  json config = cloud({{"type", "path_traced"}, {"samples", 4}, {"orders", 1}});
+  EXPECT_EQ(run_of(config), (Run{"walk", "combine"}));
+  config["camera"]["position"] = {0, 3, 0.5};
+  config["image"]["background"] = {0.1, 0.2, 0.3};
+  config["optical_model"]["color"] = {{0, 0.2, 1, 0.5}};
+  EXPECT_EQ(run_of(config), Run{}) << "a camera move, a background and a colour";
+  config["illumination"][0]["bias"] = 0.2;
+  EXPECT_EQ(run_of(config), Run{"combine"});
+}
+
 // Nothing is computed again that did not change: the camera, the bias, the radius, the shadow volume, a light, the
 // medium.
 TEST(LightUpdates, OnlyWhatChanged) {

@@ -53,7 +53,8 @@ std::uint64_t lay_out(BlockedField& f, const BlockChoice& choice, const std::vec
     if (next > std::uint64_t(std::numeric_limits<std::int32_t>::max()) - BlockedField::row)
       throw NotSupported("sampler flat_blocking: more than 2^31 samples; ask for a higher reduction");
     f.start.push_back(std::int32_t(first));
-    f.owner.push_back(std::int32_t(block));
+    const std::array<int, 3> p = position(f, block);
+    f.owner.push_back(p[0] | p[1] << 10 | p[2] << 20);
     return std::int32_t(first);
   };
   std::vector<std::int32_t> shared(stand_in_count, -1);
@@ -273,6 +274,8 @@ std::shared_ptr<const BlockedField> make_blocks(const GridField& grid, const Blo
   f->border = choice.border;
   f->type = grid.type;
   for (std::size_t a = 0; a < 3; ++a) f->blocks[a] = (grid.dims[a] - 1) / choice.side + 1;
+  if (*std::max_element(f->blocks.begin(), f->blocks.end()) > 1024)
+    throw NotSupported("sampler flat_blocking: more than 1024 blocks along an axis; use larger ones");
   const BlockPyramid pyramid(grid, choice);
   const std::vector<BlockErrors> errors = block_errors(grid, pyramid, choice, BlockColors(input, grid.voxel), input);
   std::vector<int> level;

@@ -60,7 +60,8 @@ class Planner {
     // The standard error of a pixel is that of independent estimates.
     const auto samples = static_cast<int>(p_.integer("samples"));
     const int estimates = image_ ? std::clamp(samples / 2, 2, 8) : 1;
-    stage.grid = image_ ? LightGrid{{s_.image->width, s_.image->height, estimates}, 4} : s_.points(2);
+    const auto [width, height] = s_.image_size;
+    stage.grid = image_ ? LightGrid{{width, height, estimates}, 4} : s_.points(2);
     stage.first_light = light;
     stage.long_loops = true;
     add_walk(stage, light, color, (samples + estimates - 1) / estimates);
@@ -103,9 +104,10 @@ class Planner {
         real_of("environment", light == 0 ? p_.number("environment") : 0)};
   }
 
-  /// The camera and what it sees. What all lights share comes with the first one.
+  /// The camera and what it sees, or names without content: a volume of walks is the same whoever looks. What all
+  /// lights share comes with the first one.
   void add_view(LightStage& stage, int light) const {
-    const ImageSetting& view = *s_.image;
+    const ImageSetting view = s_.image();
     const double base = (1 - plan_.blend) + plan_.blend * plan_.bias, scale = plan_.blend * (1 - plan_.bias);
     const auto largest = std::max(s_.largest_tau[0], 1e-6 / s_.voxel);
     const Vector3& color = s_.light[std::size_t(light)].color;
@@ -113,16 +115,21 @@ class Planner {
     const auto vector_of = [](const char* name, const Vector3& v) {
       return Uniform::vector(std::string("path_traced_walk_") + name, v[0], v[1], v[2]);
     };
-    stage.uniforms.insert(
-        stage.uniforms.end(),
-        {Uniform::constant_integer("path_traced_walk_image", image_ ? 1 : 0), real_of("view_majorant", largest),
-         real_of("view_flight", 1 / largest), real_of("base", light == 0 ? base : 0.0),
-         real_of("first", light == 0 ? 1.0 : 0.0),
-         vector_of("color", {scale * color[0], scale * color[1], scale * color[2]}), vector_of("background", behind)});
-    stage.uniforms.insert(stage.uniforms.end(), view.rays.uniforms.begin(), view.rays.uniforms.end());
-    stage.buffers = view.rays.buffers;
-    stage.buffers.push_back(vec4_buffer("path_traced_walk_lit", view.lit));
-    stage.buffers.push_back(vec4_buffer("path_traced_walk_emitted", view.emitted));
+    std::vector<Uniform> uniforms = view.rays.uniforms;
+    uniforms.insert(uniforms.end(), {real_of("view_majorant", largest), real_of("view_flight", 1 / largest),
+                                     real_of("base", light == 0 ? base : 0.0), real_of("first", light == 0 ? 1.0 : 0.0),
+                                     vector_of("color", {scale * color[0], scale * color[1], scale * color[2]}),
+                                     vector_of("background", behind)});
+    std::vector<Buffer> buffers = view.rays.buffers;
+    buffers.push_back(vec4_buffer("path_traced_walk_lit", view.lit));
+    buffers.push_back(vec4_buffer("path_traced_walk_emitted", view.emitted));
+    if (!image_) {
+      for (Uniform& u : uniforms) u.f = {}, u.i = 0;
+      for (Buffer& b : buffers) b = vec4_buffer(b.name, {});
+    }
+    stage.uniforms.insert(stage.uniforms.end(), uniforms.begin(), uniforms.end());
+    stage.uniforms.push_back(Uniform::constant_integer("path_traced_walk_image", image_ ? 1 : 0));
+    stage.buffers = std::move(buffers);
   }
 
   const ParameterSet& p_;
@@ -150,7 +157,7 @@ class PathTraced : public LightPass {
     };
     if (s.rgb) refuse("need extinction that is the same for all colours");
     if (s.local_shading) refuse("know no local shading: take the other pass away");
-    if (s.image->glows_without_extinction)
+    if (s.image().glows_without_extinction)
       refuse("meet matter where it extinguishes, and do not see what glows without");
   }
 };

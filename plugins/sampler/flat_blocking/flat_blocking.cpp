@@ -3,7 +3,7 @@
 
 #include "framework/interfaces/blocks.h"
 #include "framework/interfaces/error.h"
-#include "framework/scene/blocks/block_pyramid.h"
+#include "framework/scene/blocks/block_levels.h"
 
 namespace dvrlab::flat_blocking {
 namespace {
@@ -12,13 +12,14 @@ using enum ParameterType;
 constexpr Affects pixels = Affects::pixels;
 
 const Parameter parameters[] = {
-    {"reduction", number, "grid points per sample", "0", "[0,500]",
-     "How much less is kept, with the least error of the colours; 1: everything, the grid itself; 0: by tolerance.",
-     pixels, "", "12"},
+    {"levels", choice, "", "\"reduction\"", "reduction|tolerance", "What the blocks' levels are chosen by.", pixels,
+     R"({"sampler":{"reduction":null}})", "\"tolerance\""},
+    {"reduction", number, "grid points per sample", "8.9", "[1,500]",
+     "How much less is kept, with the least error of the colours; 1: everything, the grid itself.", pixels, "", "12",
+     "levels=reduction"},
     {"tolerance", number, "CIELUV", "1", "[0,inf)",
-     "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference. "
-     "Where reduction is 0.",
-     pixels, R"({"sampler":{"reduction":0}})", "8"},
+     "Largest error of the colours of a block's visible voxels, root mean square; 1 is a just noticeable difference.",
+     pixels, R"({"sampler":{"levels":"tolerance","reduction":null}})", "8", "levels=tolerance"},
     {"block", integer, "voxel", "16", "[8,32]",
      "Side of a block, 8, 16 or 32: small ones follow fine structures, large ones share less of their faces.", pixels,
      "", "8"},
@@ -33,18 +34,22 @@ constexpr Element element_of[] = {Element::u8, Element::i8, Element::u16, Elemen
 class FlatBlocking : public SamplerPlugin {
  public:
   void check(const ParameterSet& p) const override {
-    const double r = p.number("reduction");
-    if (r != 0 && !(r >= 1 && r <= 500))
-      throw InputError(p.path_of("reduction") + ": must be 0, or from 1 to 500 grid points per sample");
     const long long side = p.integer("block");
     if (side != 8 && side != 16 && side != 32)
       throw InputError(p.path_of("block") + ": found " + std::to_string(side) + "; must be 8, 16 or 32");
   }
+  std::uint64_t most_samples(const Field& field, const ParameterSet& p) const override {
+    const BlockChoice choice = choice_of(p);
+    // All of it, with shared faces, whole blocks at the grid's ends.
+    double samples = block_samples(choice, 0);
+    for (const int n : grid_of(field).dims) samples *= (n - 1) / choice.side + 1;
+    if (choice.reduction > 1)
+      samples = std::min(samples, static_cast<double>(grid_of(field).count()) / choice.reduction);
+    return static_cast<std::uint64_t>(samples);
+  }
   std::uint64_t bytes_needed(const Field& field, const ParameterSet& p) const override {
     const GridField& grid = grid_of(field);
-    const double full = 1.5 * static_cast<double>(grid.bytes());  // with shared faces
-    return static_cast<std::uint64_t>(full / std::max(1.0, p.number("reduction"))) +
-           BlockPyramid::bytes(grid.dims, choice_of(p));
+    return most_samples(field, p) * (grid.bytes() / grid.count()) + BlockPyramid::bytes(grid.dims, choice_of(p));
   }
   std::shared_ptr<const BlockedField> arrange(const Field& field, const ParameterSet& p,
                                               const ArrangeInput& input) const override {
@@ -72,8 +77,9 @@ class FlatBlocking : public SamplerPlugin {
     BlockChoice choice;
     choice.side = static_cast<int>(p.integer("block"));
     choice.border = static_cast<BlockBorder>(p.choice_index("block_border"));
-    choice.reduction = p.number("reduction");
-    choice.tolerance = p.number("tolerance");
+    const bool by_reduction = p.text("levels") == "reduction";
+    choice.reduction = by_reduction ? p.number("reduction") : 0;
+    choice.tolerance = by_reduction ? 0 : p.number("tolerance");
     return choice;
   }
   static const GridField& grid_of(const Field& field) {
