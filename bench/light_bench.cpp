@@ -164,20 +164,23 @@ void updates(const Options& o) {
   for (const auto& [name, tf] : tfs) {
     std::vector<std::string> set = o.set;
     if (*tf != '\0') set.emplace_back(tf);
-    const Scene unlit = scene_with("[]", set),
-                lit = scene_with(R"([{"type":"local_piecewise","components":"direct"}])", set);
-    const auto session = open_backend(section(o.backend)), other = open_backend(section(o.backend));
-    std::vector<double> without, with, ratio;
-    for (int r = 0; r <= o.rounds + 4; ++r) {
-      const double x = measure_frame(*session, unlit.job).wall_ms, y = measure_frame(*other, lit.job).wall_ms;
-      if (r == 0) continue;
-      without.push_back(x);
-      with.push_back(y);
-      ratio.push_back(y / x);
+    for (const std::string storage : {"float32", "unorm16"}) {
+      const Scene unlit = scene_with("[]", set);
+      const Scene lit =
+          scene_with(R"([{"type":"local_piecewise","components":"direct","storage":")" + storage + "\"}]", set);
+      const auto session = open_backend(section(o.backend)), other = open_backend(section(o.backend));
+      std::vector<double> without, with, ratio;
+      for (int r = 0; r <= o.rounds + 4; ++r) {
+        const double x = measure_frame(*session, unlit.job).wall_ms, y = measure_frame(*other, lit.job).wall_ms;
+        if (r == 0) continue;
+        without.push_back(x);
+        with.push_back(y);
+        ratio.push_back(y / x);
+      }
+      std::printf("| %s, light in %s | %.0f | %.0f | %.2f | %.2f |\n", name, storage.c_str(), least(without),
+                  least(with), least(with) / least(without), median(ratio));
+      std::fflush(stdout);
     }
-    std::printf("| %s | %.0f | %.0f | %.2f | %.2f |\n", name, least(without), least(with), least(with) / least(without),
-                median(ratio));
-    std::fflush(stdout);
   }
 }
 

@@ -50,13 +50,14 @@ def main(dvrlab, names):
             continue
         print(f"papers: {config}", file=sys.stderr)
         out = OUT / config.parent.name
-        tables = ["tools/paper_table.py", "--times"] if config.parent.name == "yang2012" else ["tools/lee_shin_tables.py", f"--{config.stem}"]
+        tables = {"yang2012": ["tools/paper_table.py", "--times"], "lee_shin2013": ["tools/lee_shin_tables.py", f"--{config.stem}"],
+                  "hernell2008": ["tools/hernell_tables.py"]}.get(config.parent.name)
         if config.parent.name == "lee_shin2013" and config.stem in ("table1", "table2"):  # of tables, not of images
             subprocess.run([sys.executable, *tables, dvrlab], check=True)
             continue
         run = subprocess.run([dvrlab, "run", config, "--out", out])
         worst = max(worst, run.returncode)
-        if config.stem.startswith("table"):
+        if tables and config.stem.startswith("table"):
             subprocess.run([sys.executable, *tables, out / config.stem], check=True)
         else:
             renew(dvrlab, config, out / config.stem)

@@ -1,5 +1,6 @@
 // The cpu backend: kernel modules of one instruction set, chosen at run time, over image tiles on all cores.
 #include "backends/cpu/isa.h"
+#include "backends/cpu/light_beside.h"
 #include "backends/cpu/probe.h"
 #include "backends/cpu/stages.h"
 #include "backends/cpu/tiles.h"
@@ -32,20 +33,24 @@ class CpuSession : public BackendSession {
             "isa " + isa + ", " + std::to_string(cpu::thread_count(options_.threads)) + " threads, tile " +
                 std::to_string(options_.tile)};
   }
-  // The images; modules work in place on the job's buffers.
+  // The images, and light beside voxels; modules work in place on the job's buffers otherwise.
   std::uint64_t bytes_needed(const FrameJob& job) const override {
     const std::uint64_t number = sizeof(float) + (job.precision == Precision::fp64 ? sizeof(double) : 0);
-    return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * number;
+    return std::uint64_t(job.width) * std::uint64_t(job.height) * 6 * number + cpu::LightBeside::bytes_for(job);
   }
 
  protected:
   void march(const FrameJob& job, FrameResult& result) override {
     if (job.precision == Precision::fast)
       throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
-    cpu::render_tiles(job, isa_, march_folder_, modules_, options_, result);
+    std::vector<PhaseTime> times;
+    const FrameJob with = beside_.add(job, times);
+    cpu::render_tiles(with, isa_, march_folder_, modules_, options_, result);
+    result.times.insert(result.times.end(), times.begin(), times.end());
   }
   std::vector<ProbeSegment> march_ray(const FrameJob& job, int x, int y) override {
-    return cpu::probe_ray(job, isa_, march_folder_, modules_, x, y);
+    std::vector<PhaseTime> times;
+    return cpu::probe_ray(beside_.add(job, times), isa_, march_folder_, modules_, x, y);
   }
   void fill(const StageJob& job, LightVolume& volume) override {
     cpu::fill_volume(job, isa_, options_.threads, modules_, volume);
@@ -54,6 +59,7 @@ class CpuSession : public BackendSession {
  private:
   std::string isa_, march_folder_;
   cpu::TileOptions options_;
+  cpu::LightBeside beside_;
   cpu::ModuleCache modules_;
 };
 

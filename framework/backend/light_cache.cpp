@@ -221,6 +221,7 @@ LightVolume LightCache::volume(const FrameJob& job, const Fill& fill, std::vecto
   for (const auto& color : work.color) t.add(color);
   t.add(work.plan.bias);
   t.add(work.plan.blend);
+  t.add(work.plan.storage);
   const std::string key = t.hash();
   run.times.push_back({"light combine", 0, 0});
   if (!kept_.contains(key)) {

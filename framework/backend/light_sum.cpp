@@ -123,6 +123,23 @@ void join_estimates(const FrameJob& job, const std::vector<const LightVolume*>& 
   result.light = {{"error_rms", std::sqrt(square / double(3 * pixels))}, {"error_max", std::sqrt(worst)}};
 }
 
+/// The values as levels of equal steps, and the values that those stand for.
+template <class Real>
+void store_as_levels(std::vector<Real>& values, LightVolume& v) {
+  constexpr int most = 65535;
+  const Real largest = *std::max_element(values.begin(), values.end());
+  v.levels = std::make_shared<std::vector<std::uint16_t>>(values.size());
+  v.unit = largest > 0 ? static_cast<float>(largest / most) : 1.0f;
+  const auto unit = static_cast<Real>(v.unit);
+  parallel_ranges(values.size(), 65536, [&](std::uint64_t begin, std::uint64_t end) {
+    for (std::uint64_t i = begin; i < end; ++i) {
+      const auto level = static_cast<int>(values[i] / unit + Real(0.5));
+      (*v.levels)[i] = static_cast<std::uint16_t>(std::clamp(level, 0, most));
+      values[i] = static_cast<Real>((*v.levels)[i]) * unit;
+    }
+  });
+}
+
 std::vector<std::pair<std::string, double>> statistics_of(const LightVolume& volume) {
   double sum = 0, square = 0, least = 1e300, most = -1e300;
   for (const float x : *volume.values) {
@@ -165,11 +182,13 @@ LightVolume sum_of_light(const FrameJob& job, const std::vector<std::vector<cons
     v.values64 = std::make_shared<std::vector<double>>(v.grid.numbers());
     combine(work, parts, v.grid.channels, *v.values64);
     conform_planes(work, *v.values64);
+    if (work.plan.storage == LightStorage::unorm16) store_as_levels(*v.values64, v);
     std::transform(v.values64->begin(), v.values64->end(), v.values->begin(),
                    [](double x) { return static_cast<float>(x); });
   } else {
     combine(work, parts, v.grid.channels, *v.values);
     conform_planes(work, *v.values);
+    if (work.plan.storage == LightStorage::unorm16) store_as_levels(*v.values, v);
   }
   v.error = combined_error(work, parts, std::size_t(v.grid.points()));
   v.statistics = statistics_of(v);

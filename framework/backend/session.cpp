@@ -15,8 +15,14 @@ LightVolume BackendSession::illuminate(const FrameJob& job, std::vector<PhaseTim
 
 FrameJob BackendSession::lit(const FrameJob& job, const LightVolume& volume) {
   FrameJob with = job;
+  for (Uniform& u : with.frame.uniforms)
+    if (u.name == "frame_light_unit") u.f[0] = double(volume.unit);
   for (Buffer& b : with.frame.buffers) {
-    if (b.name != "frame_light_volume") continue;
+    if (volume.levels && b.name == "frame_light_levels") {
+      b.count = volume.levels->size();
+      b.data = {volume.levels, volume.levels->data()};
+    }
+    if (volume.levels || b.name != "frame_light_volume") continue;
     b.count = volume.values->size();
     b.data = {volume.values, volume.values->data()};
     b.data64 = nullptr;

@@ -7,13 +7,18 @@
 
 namespace dvrlab {
 
-bool walks(const KernelUnit& sampler) {
+namespace {
+bool text_has(const KernelUnit& sampler, const char* word) {
   const std::string file = sampler.folder + "/" + sampler.plugin + ".kernel";
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error("cannot read the kernel text " + file);
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return text.find("walk_next(") != std::string::npos;
+  return text.find(word) != std::string::npos;
 }
+}  // namespace
+
+bool walks(const KernelUnit& sampler) { return text_has(sampler, "walk_next("); }
+bool tells_cells(const KernelUnit& sampler) { return text_has(sampler, "sample_cell("); }
 
 Uniform Uniform::real(std::string name, double value) {
   Uniform u;

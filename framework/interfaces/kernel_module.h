@@ -7,7 +7,7 @@
 #ifndef DVRLAB_KERNEL_MODULE_H
 #define DVRLAB_KERNEL_MODULE_H
 
-#define DVR_KERNEL_ABI 6
+#define DVR_KERNEL_ABI 7
 #define DVR_CHUNK 8      /* segments per chunk */
 #define DVR_MAX_WIDTH 16 /* lanes of the widest instruction set */
 #define DVR_WALK_OPEN (1 << 30)

@@ -67,6 +67,9 @@ struct KernelUnit {
 /// True for a sampler whose kernel text defines walk_next: it goes from face to face (framework/kernel/walk.glsl)
 /// instead of being asked at positions. Throws std::runtime_error when the text cannot be read.
 bool walks(const KernelUnit& sampler);
+/// True for one whose text defines sample_cell(p), a cell of the voxels <plugin>_voxels between which its value is
+/// interpolated: a backend may lay what else has the same points beside them. Throws likewise.
+bool tells_cells(const KernelUnit& sampler);
 
 /// The numeric parameters of a plugin as uniforms `<plugin>_<name>`: numbers as f32, whole numbers, booleans and
 /// choices (their index) as i32, vectors as vec4; whole numbers, booleans and choices are constants. Texts, nodes and

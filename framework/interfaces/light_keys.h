@@ -29,6 +29,17 @@ inline constexpr Parameter light_blend_key{
     Affects::pixels,
     "",
     "0.5"};
+inline constexpr Parameter light_storage_key{"storage",
+                                             ParameterType::choice,
+                                             "",
+                                             "\"float32\"",
+                                             "float32|unorm16",
+                                             "Numbers of the finished light volume: floats, or 65536 equal steps up to "
+                                             "its largest value, in half the bytes to "
+                                             "read.",
+                                             Affects::pixels,
+                                             "",
+                                             "\"unorm16\""};
 inline constexpr Parameter light_opacity_scale_key{
     "light_opacity_scale",
     ParameterType::number,
@@ -108,6 +119,7 @@ inline LightPlan light_plan(const ParameterSet& p) {
   plan.opacity_scale = p.number("light_opacity_scale");
   plan.bias = p.number("bias");
   plan.blend = p.number("blend");
+  plan.storage = static_cast<LightStorage>(p.choice_index("storage"));
   return plan;
 }
 

@@ -56,6 +56,10 @@ struct LightPart {
   int color = -1;           // with `error` and RGB extinction: the only channel that it lights
 };
 
+/// Numbers of the finished light volume as the march reads them: floats, or levels from 0 to 65535 of equal steps up to
+/// the largest (an error of a 131070th of that at the most), half the bytes for the march to read.
+enum class LightStorage { float32, unorm16 };
+
 /// What a pass makes of its parameters.
 struct LightPlan {
   std::vector<LightStage> stages;
@@ -66,6 +70,7 @@ struct LightPlan {
   double opacity_scale = 1;  // extinction that light rays see, relative to the medium's
   double bias = 0;           // light that is always there: bias + (1 - bias) x
   double blend = 1;          // how much of all this acts: 1 - blend + blend (...)
+  LightStorage storage = LightStorage::float32;
 };
 
 /// A volume in the precision of the case. fp64 has both.
@@ -75,6 +80,9 @@ struct LightVolume {
   std::shared_ptr<std::vector<double>> values64;                // empty pointer unless fp64
   std::vector<std::pair<std::string, double>> statistics = {};  // FrameResult::light
   std::shared_ptr<std::vector<float>> error;  // per point: the standard error of `values`; empty pointer without
+  /// With LightStorage::unorm16: `values` are these times `unit`, up to rounding. Empty pointer without.
+  std::shared_ptr<std::vector<std::uint16_t>> levels = nullptr;
+  float unit = 1;
 };
 
 /// Everything that fills the light volume of a frame.

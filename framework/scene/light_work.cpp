@@ -212,12 +212,15 @@ void add_light_volume(const LightWork* work, const OccupiedBins& occupied, const
       {Uniform::constant_integer("frame_lit", work != nullptr ? light_planes(*work) : 0),
        Uniform::integer("frame_light_nx", at(0)), Uniform::integer("frame_light_ny", at(1)),
        Uniform::integer("frame_light_nz", at(2)), vec("frame_light_lo", lo), vec("frame_light_scale", scale),
-       Uniform::integer("frame_light_plane", static_cast<int>(points.points()))});
+       Uniform::integer("frame_light_plane", static_cast<int>(points.points())),
+       Uniform::constant_integer("frame_light_stored", work != nullptr ? static_cast<int>(work->plan.storage) : 0),
+       Uniform::real("frame_light_unit", 1)});
   std::vector<int> kept{0};
   if (work != nullptr) kept = lit_sums(occupied, options);
   const std::uint64_t count = work != nullptr ? kept.size() : 0;
   unit.buffers.push_back(make_buffer("medium_lit_sum", Element::i32, std::move(kept), count));
-  // Filled by the session (BackendSession::render).
+  // One of the two is filled by the session (BackendSession::render).
+  unit.buffers.push_back(make_buffer("frame_light_levels", Element::u16, std::vector<std::uint16_t>(8), 0));
   Buffer volume = make_buffer("frame_light_volume", Element::f32, std::vector<float>(8), 0);
   volume.data64 = make_buffer("", Element::f32, std::vector<double>(8), 0).data;
   unit.buffers.push_back(std::move(volume));

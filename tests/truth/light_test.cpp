@@ -436,6 +436,59 @@ TEST_P(Light, MeshesCastShadows) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, Light, testing::ValuesIn(targets()), target_name);
 
+// In levels of equal steps up to the largest, each within half a step of the float; in fp64 likewise.
+TEST(LightStorage, LevelsAreWithinHalfAStep) {
+  json config = cloud(scattered(5, 2));
+  for (const Target& target : {targets().front(), fp64}) {
+    SCOPED_TRACE(target.name);
+    if (target.name == fp64.name) config["precision"] = "fp64";
+    config["illumination"][0]["storage"] = "float32";
+    const LightVolume as_floats = illuminate(config, target);
+    EXPECT_EQ(as_floats.levels, nullptr);
+    config["illumination"][0]["storage"] = "unorm16";
+    const LightVolume v = illuminate(config, target);
+    ASSERT_NE(v.levels, nullptr);
+    const float largest = *std::max_element(as_floats.values->begin(), as_floats.values->end());
+    EXPECT_NEAR(double(v.unit), double(largest) / 65535, 1e-6 * double(largest) / 65535);
+    EXPECT_EQ(*std::max_element(v.levels->begin(), v.levels->end()), 65535);
+    std::size_t beyond = 0, apart = 0;
+    for (std::size_t i = 0; i < v.values->size(); ++i) {
+      const double difference = std::abs(double((*v.values)[i]) - double((*as_floats.values)[i]));
+      beyond += difference > 0.5001 * double(v.unit) + 1e-7 * double(largest) ? 1 : 0;
+      apart += difference > 0.1 * double(v.unit) ? 1 : 0;
+    }
+    EXPECT_EQ(beyond, 0u);
+    EXPECT_GT(apart, 0u) << "nothing was rounded";
+  }
+}
+
+// On the cpu they lie beside voxels of 8 or 16 bits, laid there when one of both changes and only then.
+TEST(LightStorage, LiesBesideTheVoxels) {
+  const auto laid = [](const json& config, const Target& target) {
+    const FrameResult result = render(config, target);
+    return std::any_of(result.times.begin(), result.times.end(),
+                       [](const PhaseTime& t) { return t.phase == "light beside the voxels"; });
+  };
+  const Target& cpu = targets().front();
+  json config = cloud(scattered(5, 2));
+  config["data"]["voxel_type"] = "uint8";
+  EXPECT_FALSE(laid(config, cpu)) << "floats";
+  config["illumination"][0]["storage"] = "unorm16";
+  EXPECT_TRUE(laid(config, cpu));
+  EXPECT_FALSE(laid(config, cpu)) << "nothing changed";
+  config["camera"]["position"] = {0, 3, 0.5};
+  EXPECT_FALSE(laid(config, cpu)) << "a camera move";
+  config["illumination"][0]["bias"] = 0.15;
+  EXPECT_TRUE(laid(config, cpu)) << "another light";
+  config["data"]["voxel_type"] = "int16";
+  EXPECT_TRUE(laid(config, cpu)) << "other voxels";
+  config["data"]["voxel_type"] = "float32";
+  EXPECT_FALSE(laid(config, cpu)) << "voxels of 32 bits";
+  config["data"]["voxel_type"] = "uint16";
+  config["lights"][0]["color"] = {1, 0.5, 0.2};
+  EXPECT_FALSE(laid(config, cpu)) << "light in colours";
+}
+
 /// Labels of the stages that were run.
 std::vector<std::string> run_of(const json& config) {
   std::vector<PhaseTime> times;

@@ -31,6 +31,7 @@
 #define BYTES(name)
 #define VOXELS(name) DVR_DEFINE_FETCH_CELL(name)
 #define VOLUME(name) DVR_DEFINE_FETCH_CELL(name)
+#define LEVELS(name) DVR_DEFINE_FETCH_CELL(name)
 
 #define fetch1(name, i) fetch1_##name(uint(i))
 #define fetch2(name, i, a, b) fetch2_##name(uint(i), a, b)

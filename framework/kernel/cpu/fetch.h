@@ -118,7 +118,9 @@ DVR_INLINE inti fetchi(bytes8 b, inti i) {
 }
 
 // ---- pairs: elements i and i+1 of every lane -----------------------------------------------------------------
-DVR_INLINE __m128 pair_f32(const float* p, uint32_t i, uint32_t j) {
+/// The 64 bits at element i, then those at element j.
+template <class T>
+DVR_INLINE __m128 pair64(const T* p, uint32_t i, uint32_t j) {
   __m128 r = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p + i)));
   return _mm_loadh_pi(r, reinterpret_cast<const __m64*>(p + j));
 }
@@ -139,8 +141,9 @@ DVR_INLINE __m512 join(__m128 a, __m128 b, __m128 c, __m128 d) {
   const __m256 cd = _mm256_insertf128_ps(_mm256_castps128_ps256(c), d, 1);
   return _mm512_insertf32x8(_mm512_castps256_ps512(ab), cd, 1);
 }
-DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b) {
-#define DVR_PAIR(l) pair_f32(p, n.i[l], n.i[l + 1])
+template <class T>
+DVR_INLINE void fetch64_at(const T* p, const lane_index& n, real& a, real& b) {
+#define DVR_PAIR(l) pair64(p, n.i[l], n.i[l + 1])
   const __m512 x = join(DVR_PAIR(0), DVR_PAIR(4), DVR_PAIR(8), DVR_PAIR(12));
   const __m512 y = join(DVR_PAIR(2), DVR_PAIR(6), DVR_PAIR(10), DVR_PAIR(14));
 #undef DVR_PAIR
@@ -148,8 +151,9 @@ DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b)
   b = {vf(_mm512_shuffle_ps(x, y, 0xdd))};
 }
 #elif defined(DVR_ISA_avx2)
-DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b) {
-#define DVR_PAIR(l) pair_f32(p, n.i[l], n.i[l + 1])
+template <class T>
+DVR_INLINE void fetch64_at(const T* p, const lane_index& n, real& a, real& b) {
+#define DVR_PAIR(l) pair64(p, n.i[l], n.i[l + 1])
   const __m256 x = _mm256_insertf128_ps(_mm256_castps128_ps256(DVR_PAIR(0)), DVR_PAIR(4), 1);
   const __m256 y = _mm256_insertf128_ps(_mm256_castps128_ps256(DVR_PAIR(2)), DVR_PAIR(6), 1);
 #undef DVR_PAIR
@@ -157,13 +161,15 @@ DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b)
   b = {vf(_mm256_shuffle_ps(x, y, 0xdd))};
 }
 #else
-DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b) {
-  const __m128 x = pair_f32(p, n.i[0], n.i[1]);
-  const __m128 y = pair_f32(p, n.i[2], n.i[3]);
+template <class T>
+DVR_INLINE void fetch64_at(const T* p, const lane_index& n, real& a, real& b) {
+  const __m128 x = pair64(p, n.i[0], n.i[1]);
+  const __m128 y = pair64(p, n.i[2], n.i[3]);
   a = {vf(_mm_shuffle_ps(x, y, 0x88))};
   b = {vf(_mm_shuffle_ps(x, y, 0xdd))};
 }
 #endif
+DVR_INLINE void fetch2_at(const float* p, const lane_index& n, real& a, real& b) { fetch64_at(p, n, a, b); }
 
 // Two 8-bit voxels in 16 bits, two 16-bit voxels in 32 bits, widened in registers. The 16-bit loads are spelled as
 // inserts: an initializer list makes g++ 12 carry them through mask registers.

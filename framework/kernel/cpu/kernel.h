@@ -87,11 +87,17 @@ struct kernel_base {
   }
   template <class T>
   const T* buffer(const char* name, int element) {
+    const T* p = offered<T>(name, element);
+    if (!p) note(name);
+    return p;
+  }
+  /// A buffer that a backend may offer or not.
+  template <class T>
+  const T* offered(const char* name, int element) const {
     for (int k = 0; k < bindings->buffer_count; ++k) {
       const dvr_buffer* b = bindings->buffers + k;
       if (strcmp(b->name, name) == 0 && b->element == element) return static_cast<const T*>(b->data);
     }
-    note(name);
     return nullptr;
   }
   dvr_entry_surface surface(const char* name) {
@@ -138,5 +144,6 @@ DVR_INLINE State local(const void* frame) {
 #define TABLEI4(name) dvr::tablei4 name = {this->buffer<int32_t>(#name, DVR_ELEMENT_IVEC4)};
 #define BYTES(name) dvr::bytes8 name = {this->buffer<uint8_t>(#name, DVR_ELEMENT_U8)};
 #define VOLUME(name) dvr::voxels<dvr::scalar> name = {this->numbers(#name, DVR_ELEMENT_F32)};
+#define LEVELS(name) dvr::voxels<uint16_t> name = {this->buffer<uint16_t>(#name, DVR_ELEMENT_U16)};
 // ENTRY(name) is a word of walking samplers (framework/kernel/cpu/entry.h).
 // VOXELS(name) is defined by the sampler and stage modules: the voxel type is the module's variant.

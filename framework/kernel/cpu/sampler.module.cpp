@@ -1,6 +1,7 @@
 // The sampler as a kernel module: starts rays and fills chunks. Compiled once per instruction set.
 // A positional sampler (DVR_KERNEL_FILE defines sample_value(p) and sample_gradient(p), p in sampler coordinates) has
 // one variant per voxel type; a walking one (walk_start, walk_next, walk_gradient) has one.
+#include "framework/kernel/cpu/beside.h"
 #include "framework/kernel/cpu/kernel.h"
 #include "framework/kernel/cpu/rows.h"
 

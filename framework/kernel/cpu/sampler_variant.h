@@ -20,6 +20,39 @@ struct DVR_STRUCT : kernel_base {
   UNIFORM_I(frame_neighbours)
   UNIFORM_I(frame_gradient)
 #undef VOXELS
+#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+  // The voxels with light beside them, where the backend has laid it there.
+  const uint8_t* light_beside =
+      sizeof(DVR_VOXEL) <= 2 ? this->offered<uint8_t>("frame_light_beside", DVR_ELEMENT_U8) : nullptr;
+#else
+  static constexpr const uint8_t* light_beside = nullptr;
+#endif
+
+  // Bins of the medium as 32 groups of values, a bit each, from the prefix sums over bins: whether a value counts is a
+  // shift away then, not two look-ups, and a group more is only work. SSE has no such shift.
+  uint32_t shaded_groups = frame_gradient != 0 ? groups_of(medium_shaded_sum) : 0;
+  uint32_t lit_groups = frame_lit != 0 ? groups_of(medium_lit_sum) : 0;
+  uint32_t groups_of(tablei sum) const {
+    const double last = double(medium_last), width = (last + 1) / 32, margin = 0.01;
+    uint32_t groups = 0;
+    for (int g = 0; g < 32; ++g) {
+      const double low = g * width - margin, high = (g + 1) * width + margin;
+      const int first = low > 1 ? int(low) - 1 : 0, end = int(high < last ? high : last) + 2;
+      if (sum.data[end] > sum.data[first]) groups |= uint32_t(1) << g;
+    }
+    return groups;
+  }
+#if defined(DVR_ISA_avx512) || defined(DVR_ISA_avx2)
+  KFN mask in_groups(uint32_t groups, real v) {
+    const inti group = to_int(medium_coordinate(v) * R(32.0f / (medium_last + 1.0f)));
+    return I(0) < (inti{vi(vu(I(int(groups)).v) >> vu(group.v))} & I(1));
+  }
+  KFN mask may_be_shaded(real v) { return in_groups(shaded_groups, v); }
+  KFN mask may_be_lit(real v) { return in_groups(lit_groups, v); }
+#else
+  KFN mask may_be_shaded(real v) { return medium_shaded(v, v); }
+  KFN mask may_be_lit(real v) { return medium_lit(v, v); }
+#endif
 
   // Moves the packet's origin to the entry point and counts its segments.
   KFN void start(ray_packet* p) {
@@ -72,6 +105,8 @@ struct DVR_STRUCT : kernel_base {
       for (int k = 0; k < keep; ++k) {
         store(c->s + k * W, load(c->s + (from + k) * W));
         store(c->v + k * W, load(c->v + (from + k) * W));
+        if (light_beside)
+          for (int ch = 0; ch < 3; ++ch) store(c->m[ch] + k * W, load(c->m[ch] + (from + k) * W));
       }
       row = keep;
     }
@@ -90,11 +125,11 @@ struct DVR_STRUCT : kernel_base {
       } else {
         for (int k = 1; k <= steps; ++k) {
           const real v = load(c->v + k * W);
-          if (any_lane(medium_shaded(v, v) && load(c->len + (k - 1) * W) > R(0.0f))) gradient(c, k, o, d);
+          if (any_lane(may_be_shaded(v) && load(c->len + (k - 1) * W) > R(0.0f))) gradient(c, k, o, d);
         }
       }
     }
-    if (frame_lit != 0) light(c, steps, ends, o, d);
+    if (frame_lit != 0 && !light_beside) light(c, steps, ends, o, d);
     store(p->i, i + I(steps));
     p->carried = 1;
     c->n = steps;
@@ -103,8 +138,24 @@ struct DVR_STRUCT : kernel_base {
 
   KFN void sample(ray_chunk* c, int row, real s, vec3r o, vec3r d) {
     store(c->s + row * W, s);
+#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+    if constexpr (sizeof(DVR_VOXEL) <= 2)
+      if (light_beside) return sample_with_light(c, row, o + d * s);
+#endif
     store(c->v + row * W, sample_value(o + d * s));
   }
+#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+  KFN void sample_with_light(ray_chunk* c, int row, vec3r p) {
+    const volume_cell k = sample_cell(p);
+    const beside_cell b =
+        fetch_beside_cell<DVR_VOXEL>(light_beside, k.base, frame_light_nx, frame_light_nx * frame_light_ny);
+    const real v = volume_mix(b.values<DVR_VOXEL>(), k.f);
+    store(c->v + row * W, v);
+    if (frame_samples_ends == 0 && !any_lane(may_be_lit(v))) return;
+    const real m = volume_mix(b.levels<DVR_VOXEL>(), k.f) * R(frame_light_unit);
+    for (int ch = 0; ch < 3; ++ch) store(c->m[ch] + row * W, m);
+  }
+#endif
   KFN void gradient(ray_chunk* c, int row, vec3r o, vec3r d) {
     const vec3r g = sample_gradient(o + d * load(c->s + row * W));
     store(c->g[0] + row * W, g.x);
@@ -121,8 +172,9 @@ struct DVR_STRUCT : kernel_base {
   KFN void light(ray_chunk* c, int steps, bool ends, vec3r o, vec3r d) {
     bool done = false;  // the light of row k is there
     for (int k = 0; k < steps; ++k) {
-      const real v1 = load(c->v + (k + 1) * W), v0 = ends ? load(c->v + k * W) : v1;
-      const bool wanted = any_lane(medium_lit(v0, v1) && load(c->len + k * W) > R(0.0f));
+      const real v = load(c->v + (k + 1) * W);
+      const mask lit = ends ? medium_lit(load(c->v + k * W), v) : may_be_lit(v);
+      const bool wanted = any_lane(lit && load(c->len + k * W) > R(0.0f));
       if (wanted && ends && !done) light(c, k, o, d);
       if (wanted) light(c, k + 1, o, d);
       done = wanted;

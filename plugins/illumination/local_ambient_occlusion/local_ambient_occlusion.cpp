@@ -8,7 +8,7 @@ namespace {
 
 const Parameter parameters[] = {
     light_radius_key,        light_samples_key, light_solid_key, light_subdivisions_key, light_weights_key,
-    light_opacity_scale_key, light_bias_key,    light_blend_key, light_resolution_key,
+    light_opacity_scale_key, light_bias_key,    light_blend_key, light_storage_key,      light_resolution_key,
 };
 
 class LocalAmbientOcclusion : public LightPass {

@@ -68,6 +68,7 @@ const Parameter parameters[] = {
     light_opacity_scale_key,
     light_bias_key,
     light_blend_key,
+    light_storage_key,
     light_resolution_key,
 };
 

@@ -11,6 +11,13 @@ namespace {
 using enum ParameterType;
 constexpr Affects pixels = Affects::pixels;
 
+/// An image has no volume that could be stored.
+constexpr Parameter storage_key = [] {
+  Parameter key = light_storage_key;
+  key.only_with = "target=volume";
+  return key;
+}();
+
 const Parameter parameters[] = {
     {"target", choice, "", "\"volume\"", "volume|image",
      "volume: the light at every voxel; image: the picture itself, from random walks that begin at the camera.", pixels,
@@ -31,6 +38,7 @@ const Parameter parameters[] = {
     light_opacity_scale_key,
     light_bias_key,
     light_blend_key,
+    storage_key,
     light_resolution_key,
 };
 
