@@ -44,13 +44,14 @@ class CpuSession : public BackendSession {
     if (job.precision == Precision::fast)
       throw NotSupported("backend cpu: precision \"fast\" is not built; use \"strict\"");
     std::vector<PhaseTime> times;
-    const FrameJob with = beside_.add(job, times);
-    cpu::render_tiles(with, isa_, march_folder_, modules_, options_, result);
+    const std::optional<FrameJob> with = beside_.add(job, times);
+    cpu::render_tiles(with ? *with : job, isa_, march_folder_, modules_, options_, result);
     result.times.insert(result.times.end(), times.begin(), times.end());
   }
   std::vector<ProbeSegment> march_ray(const FrameJob& job, int x, int y) override {
     std::vector<PhaseTime> times;
-    return cpu::probe_ray(beside_.add(job, times), isa_, march_folder_, modules_, x, y);
+    const std::optional<FrameJob> with = beside_.add(job, times);
+    return cpu::probe_ray(with ? *with : job, isa_, march_folder_, modules_, x, y);
   }
   void fill(const StageJob& job, LightVolume& volume) override {
     cpu::fill_volume(job, isa_, options_.threads, modules_, volume);

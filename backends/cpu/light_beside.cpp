@@ -20,11 +20,16 @@ const Uniform* uniform(const KernelUnit& unit, const std::string& name) {
   return u == unit.uniforms.end() ? nullptr : &*u;
 }
 
-/// The voxels beside which light of the same points may lie; nothing where it cannot.
-const Buffer* voxels_of(const FrameJob& job, std::uint64_t points) {
+bool wants_levels(const FrameJob& job) {
+  return job.light != nullptr && job.light->plan.storage == LightStorage::unorm16 && light_planes(*job.light) == 1;
+}
+
+/// The voxels beside which light of the same points may lie, if the sampler tells their cells; nothing where it cannot.
+const Buffer* voxels_of(const FrameJob& job) {
+  const std::uint64_t points = light_points(job.light->dims, job.light->blocks.get(), 1).points();
   const Buffer* voxels = find(job.sampler, job.sampler.plugin + "_voxels");
   if (voxels == nullptr || bytes_of(voxels->element) > 2 || voxels->count != points) return nullptr;
-  if (job.precision == Precision::fp64 || !tells_cells(job.sampler)) return nullptr;
+  if (job.precision == Precision::fp64) return nullptr;
   const Uniform* lo = uniform(job.frame, "frame_light_lo");
   const Uniform* scale = uniform(job.frame, "frame_light_scale");
   for (std::size_t a = 0; a < 3; ++a)
@@ -66,29 +71,35 @@ Buffer lay(const Buffer& voxels, const Buffer& levels) {
 }  // namespace
 
 std::uint64_t LightBeside::bytes_for(const FrameJob& job) {
-  if (job.light == nullptr || job.light->plan.storage != LightStorage::unorm16 || light_planes(*job.light) != 1)
-    return 0;
-  const std::uint64_t points = light_points(job.light->dims, job.light->blocks.get(), 1).points();
-  const Buffer* voxels = voxels_of(job, points);
-  return voxels == nullptr ? 0 : points * (bytes_of(voxels->element) + 2);
+  const Buffer* voxels = wants_levels(job) && tells_cells(job.sampler) ? voxels_of(job) : nullptr;
+  return voxels == nullptr ? 0 : voxels->count * (bytes_of(voxels->element) + 2);
 }
 
-FrameJob LightBeside::add(const FrameJob& job, std::vector<PhaseTime>& times) {
-  FrameJob with = job;
-  if (bytes_for(job) == 0) {
+bool LightBeside::cells_of(const KernelUnit& sampler) {
+  const std::string place = sampler.folder + "/" + sampler.plugin;
+  if (place != asked_) {
+    cells_ = tells_cells(sampler);
+    asked_ = place;
+  }
+  return cells_;
+}
+
+std::optional<FrameJob> LightBeside::add(const FrameJob& job, std::vector<PhaseTime>& times) {
+  const Buffer* voxels = wants_levels(job) && cells_of(job.sampler) ? voxels_of(job) : nullptr;
+  if (voxels == nullptr) {
     *this = {};
-    return with;
+    return std::nullopt;
   }
   const Buffer& levels = *find(job.frame, "frame_light_levels");
-  const Buffer& voxels = *voxels_of(job, levels.count);
-  if (voxels.data != voxels_ || levels.data != levels_) {
+  if (voxels->data != voxels_ || levels.data != levels_) {
     const PhaseClock clock;
-    voxels_ = voxels.data;
+    voxels_ = voxels->data;
     levels_ = levels.data;
-    beside_ = {};
-    beside_ = lay(voxels, levels);
+    beside_ = {};  // both at once would be twice the memory
+    beside_ = lay(*voxels, levels);
     times.push_back({"light beside the voxels", clock.wall(), clock.cpu()});
   }
+  FrameJob with = job;
   with.frame.buffers.push_back(beside_);
   return with;
 }

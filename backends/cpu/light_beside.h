@@ -2,19 +2,26 @@
 // brings both. The same picture, bit for bit; it only takes memory and saves time.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "framework/interfaces/backend.h"
 
 namespace dvrlab::cpu {
 
 class LightBeside {
  public:
-  /// The job with the buffer frame_light_beside, where its sampler can read it; else as it is. Made anew when voxels or
+  /// The job with the buffer frame_light_beside, where its sampler can read it; else nothing. Made anew when voxels or
   /// levels are others than last time, and then timed.
-  FrameJob add(const FrameJob& job, std::vector<PhaseTime>& times);
+  std::optional<FrameJob> add(const FrameJob& job, std::vector<PhaseTime>& times);
   /// Bytes that add() would take.
   static std::uint64_t bytes_for(const FrameJob& job);
 
  private:
+  bool cells_of(const KernelUnit& sampler);
+
+  std::string asked_;  // the sampler of which cells_ is known
+  bool cells_ = false;
   std::shared_ptr<const void> voxels_, levels_;
   Buffer beside_;
 };

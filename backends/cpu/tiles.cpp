@@ -8,7 +8,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <memory>
 #include <new>
 
 #include "backends/cpu/denormals.h"
@@ -72,18 +74,47 @@ void put(std::size_t at, double color, double trans, FrameImage& image) {
   image.trans64[at] = trans;
 }
 
+/// A packet with the memory of its march.
 template <class Real>
-void render_packet(const FrameModules<Real>& m, int x, int y, typename ScalarAbi<Real>::packet& packet,
-                   typename ScalarAbi<Real>::chunk& chunk, const FrameJob& job, FrameResult& result,
-                   FrameCounters& counters) {
+struct OpenPacket {
+  explicit OpenPacket(unsigned bytes) : walk(bytes) { packet.walk = walk.get(); }
+  typename ScalarAbi<Real>::packet packet{};
+  typename ScalarAbi<Real>::chunk chunk{};
+  WalkMemory walk;
+};
+
+/// Neighbours in x and y that march in turn, a chunk each: the voxels that one has read are still in the L1 cache when
+/// the next one wants them.
+template <class Real>
+struct PacketBlock {
+  static constexpr int side = 2;
+  explicit PacketBlock(unsigned bytes) {
+    for (auto& p : packets) p = std::make_unique<OpenPacket<Real>>(bytes);
+  }
+  std::array<std::unique_ptr<OpenPacket<Real>>, std::size_t(side* side)> packets;
+};
+
+template <class Real>
+void start_packet(const FrameModules<Real>& m, int x, int y, const FrameJob& job,
+                  typename ScalarAbi<Real>::packet& packet) {
   m.march.calls().march.begin(m.march.state(), x, y, &packet);
   m.sampler.calls().sampler.start(m.sampler.state(), &packet);
   for (int l = 0; l < m.width; ++l)  // lanes beside the image have no ray
     if (packet.x[l] >= job.width || packet.y[l] >= job.height) packet.n[l] = 0;
-  while (m.sampler.calls().sampler.fill(m.sampler.state(), &packet, &chunk) > 0) {
-    m.estimator.calls().estimator.integrate(m.estimator.state(), &packet, &chunk);
-    m.march.calls().march.composite(m.march.state(), &packet, &chunk);
-  }
+}
+
+/// False when every ray of the packet is through.
+template <class Real>
+bool march_chunk(const FrameModules<Real>& m, OpenPacket<Real>& p) {
+  if (m.sampler.calls().sampler.fill(m.sampler.state(), &p.packet, &p.chunk) <= 0) return false;
+  m.estimator.calls().estimator.integrate(m.estimator.state(), &p.packet, &p.chunk);
+  m.march.calls().march.composite(m.march.state(), &p.packet, &p.chunk);
+  return true;
+}
+
+template <class Real>
+void finish_packet(const FrameModules<Real>& m, const FrameJob& job, typename ScalarAbi<Real>::packet& packet,
+                   FrameResult& result, FrameCounters& counters) {
   m.march.calls().march.finish(m.march.state(), &packet);
   for (int l = 0; l < m.width; ++l) {
     if (packet.x[l] >= job.width || packet.y[l] >= job.height) continue;
@@ -95,17 +126,30 @@ void render_packet(const FrameModules<Real>& m, int x, int y, typename ScalarAbi
   }
 }
 
+/// The packets of a block from (x0, y0) on, as far as they lie in the tile.
 template <class Real>
-void render_tile(const FrameModules<Real>& m, const Rect& r, const FrameJob& job, FrameResult& result,
-                 FrameCounters& counters) {
+void render_block(const FrameModules<Real>& m, int x0, int y0, const Rect& r, PacketBlock<Real>& block,
+                  const FrameJob& job, FrameResult& result, FrameCounters& counters) {
+  const int side = PacketBlock<Real>::side, rows = m.width / m.columns;
+  std::array<OpenPacket<Real>*, std::size_t(PacketBlock<Real>::side * PacketBlock<Real>::side)> open{};
+  std::size_t count = 0;
+  for (int y = y0; y < std::min(r.y1, y0 + side * rows); y += rows)
+    for (int x = x0; x < std::min(r.x1, x0 + side * m.columns); x += m.columns) {
+      open[count] = block.packets[count].get();
+      start_packet(m, x, y, job, open[count++]->packet);
+    }
+  for (auto end = open.begin() + std::ptrdiff_t(count); end != open.begin();)
+    end = std::remove_if(open.begin(), end, [&](OpenPacket<Real>* p) { return !march_chunk(m, *p); });
+  for (std::size_t k = 0; k < count; ++k) finish_packet(m, job, block.packets[k]->packet, result, counters);
+}
+
+template <class Real>
+void render_tile(const FrameModules<Real>& m, const Rect& r, PacketBlock<Real>& block, const FrameJob& job,
+                 FrameResult& result, FrameCounters& counters) {
   const KeepDenormals keep;
-  const WalkMemory walk(m.packet_bytes);
-  typename ScalarAbi<Real>::packet packet{};
-  packet.walk = walk.get();
-  typename ScalarAbi<Real>::chunk chunk{};
-  const int rows = m.width / m.columns;
+  const int columns = PacketBlock<Real>::side * m.columns, rows = PacketBlock<Real>::side * (m.width / m.columns);
   for (int y = r.y0; y < r.y1; y += rows)
-    for (int x = r.x0; x < r.x1; x += m.columns) render_packet(m, x, y, packet, chunk, job, result, counters);
+    for (int x = r.x0; x < r.x1; x += columns) render_block(m, x, y, r, block, job, result, counters);
 }
 
 double cpu_seconds() {
@@ -136,6 +180,7 @@ void render_with(const FrameModules<Real>& m, const FrameJob& job, const TileOpt
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   tbb::enumerable_thread_specific<FrameCounters> counters;
+  tbb::enumerable_thread_specific<PacketBlock<Real>> blocks(m.packet_bytes);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
   tbb::task_arena arena(threads);
   arena.execute([&] {
@@ -144,8 +189,8 @@ void render_with(const FrameModules<Real>& m, const FrameJob& job, const TileOpt
         [&](const tbb::blocked_range<int>& range) {
           for (int t = range.begin(); t < range.end(); ++t) {
             const int x = t % columns * tile, y = t / columns * tile;
-            render_tile(m, {x, y, std::min(x + tile, job.width), std::min(y + tile, job.height)}, job, result,
-                        counters.local());
+            render_tile(m, {x, y, std::min(x + tile, job.width), std::min(y + tile, job.height)}, blocks.local(), job,
+                        result, counters.local());
           }
         },
         tbb::simple_partitioner());

@@ -93,6 +93,41 @@ TEST(KernelFetch, VoxelsUint16) { check_voxels<std::uint16_t, DVR_ELEMENT_U16>()
 TEST(KernelFetch, VoxelsInt16) { check_voxels<std::int16_t, DVR_ELEMENT_I16>(); }
 TEST(KernelFetch, VoxelsFloat32) { check_voxels<float, DVR_ELEMENT_F32>(); }
 
+// Records of a voxel and a 16-bit level, and eight bytes behind the last: the same corners as two separate fetches.
+template <class T, int element>
+void check_beside() {
+  const Guarded<std::uint8_t> data;
+  constexpr std::size_t record = sizeof(T) + 2, reach = 8;
+  const std::size_t count = (data.count() - reach) / record;
+  const std::uint8_t* p = data.data() + (data.count() - reach) % record;
+  std::vector<float> out(16 * reads);
+  for (const Isa& isa : isas()) {
+    if (isa.probe->fetch_beside == nullptr) continue;
+    SCOPED_TRACE(isa.name);
+    for (const int dy : {2, 3, 17}) {
+      const int dz = 5 * dy + 1;
+      const std::vector<int> base = indices(count - std::size_t(dz + dy) - 2);
+      isa.probe->fetch_beside(element, p, base.data(), dy, dz, out.data(), reads);
+      for (std::size_t k = 0; k < reads; ++k)
+        for (int c = 0; c < 8; ++c) {
+          const std::uint8_t* at = p + std::size_t(base[k] + (c & 1) + (c >> 1 & 1) * dy + (c >> 2) * dz) * record;
+          T value;
+          std::uint16_t level;
+          std::memcpy(&value, at, sizeof(T));
+          std::memcpy(&level, at + sizeof(T), 2);
+          ASSERT_EQ(out[std::size_t(c) * reads + k], float(value)) << "value, corner " << c << " of cell " << base[k];
+          ASSERT_EQ(out[std::size_t(8 + c) * reads + k], float(level))
+              << "level, corner " << c << " of cell " << base[k];
+        }
+    }
+  }
+}
+
+TEST(KernelFetch, LevelsBesideUint8) { check_beside<std::uint8_t, DVR_ELEMENT_U8>(); }
+TEST(KernelFetch, LevelsBesideInt8) { check_beside<std::int8_t, DVR_ELEMENT_I8>(); }
+TEST(KernelFetch, LevelsBesideUint16) { check_beside<std::uint16_t, DVR_ELEMENT_U16>(); }
+TEST(KernelFetch, LevelsBesideInt16) { check_beside<std::int16_t, DVR_ELEMENT_I16>(); }
+
 TEST(KernelFetch, TableEntries) {
   const Guarded<float> data;
   const float* p = data.data();

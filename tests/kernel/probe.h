@@ -18,9 +18,11 @@ typedef struct kernel_probe {
   void (*fetch1)(int element, const void* data, const int* i, float* out, long n);
   void (*fetch2)(int element, const void* data, const int* i, float* out, long n);                        /* 2 n */
   void (*fetch_cell)(int element, const void* data, const int* base, int dy, int dz, float* out, long n); /* 8 n */
-  void (*fetch4)(const float* table, const int* i, float* out, long n);                                   /* 4 n */
-  void (*fetch4u)(const float* table, int i, float* out, long n);                                         /* 4 n */
-  void (*fetch4_affine)(const float* table, const int* i, const float* w, float* out, long n);            /* 4 n */
+  /* 16 n: the values of the corners, then the levels beside them. Not in the scalar module. */
+  void (*fetch_beside)(int element, const void* data, const int* base, int dy, int dz, float* out, long n);
+  void (*fetch4)(const float* table, const int* i, float* out, long n);                        /* 4 n */
+  void (*fetch4u)(const float* table, int i, float* out, long n);                              /* 4 n */
+  void (*fetch4_affine)(const float* table, const int* i, const float* w, float* out, long n); /* 4 n */
   void (*fetchi)(const int* table, const int* i, int* out, long n);
   void (*fetchi8)(const unsigned char* table, const int* i, int* out, long n);
 } kernel_probe;

@@ -1,6 +1,7 @@
 // The kernel language's functions over arrays, compiled exactly like kernel modules.
 #include "tests/kernel/probe.h"
 
+#include "framework/kernel/cpu/beside.h"
 #include "framework/kernel/cpu/kernel.h"
 
 namespace {
@@ -82,15 +83,32 @@ void fetch2_all(int element, const void* data, const int* i, float* out, long n)
     }
   });
 }
+void store_cell(float* out, long n, const cell8& c) {
+  const real corner[8] = {c.v000, c.v100, c.v010, c.v110, c.v001, c.v101, c.v011, c.v111};
+  for (int j = 0; j < 8; ++j) store(out + j * n, corner[j]);
+}
 void fetch_cell_all(int element, const void* data, const int* base, int dy, int dz, float* out, long n) {
   typed(element, data, [=](auto v) {
-    for (long k = 0; k < n; k += W) {
-      const cell8 c = fetch_cell(v, load(base + k), dy, dz);
-      const real corner[8] = {c.v000, c.v100, c.v010, c.v110, c.v001, c.v101, c.v011, c.v111};
-      for (int j = 0; j < 8; ++j) store(out + j * n + k, corner[j]);
-    }
+    for (long k = 0; k < n; k += W) store_cell(out + k, n, fetch_cell(v, load(base + k), dy, dz));
   });
 }
+#ifdef DVR_SCALAR
+constexpr auto fetch_beside_all = nullptr;
+#else
+template <class T>
+void fetch_beside_of(voxels<T>, const uint8_t* data, const int* base, int dy, int dz, float* out, long n) {
+  for (long k = 0; k < n; k += W) {
+    const beside_cell c = fetch_beside_cell<T>(data, load(base + k), dy, dz);
+    store_cell(out + k, n, c.corners<T, false>());
+    store_cell(out + 8 * n + k, n, c.corners<T, true>());
+  }
+}
+void fetch_beside_of(voxels<float>, const uint8_t*, const int*, int, int, float*, long) {
+}  // no floats have levels beside
+void fetch_beside_all(int element, const void* data, const int* base, int dy, int dz, float* out, long n) {
+  typed(element, nullptr, [=](auto v) { fetch_beside_of(v, static_cast<const uint8_t*>(data), base, dy, dz, out, n); });
+}
+#endif
 void store4(float* out, long n, vec4r a) {
   store(out, a.x);
   store(out + n, a.y);
@@ -129,6 +147,7 @@ const kernel_probe probe = {W,
                             &fetch1_all,
                             &fetch2_all,
                             &fetch_cell_all,
+                            fetch_beside_all,
                             &fetch4_all,
                             &fetch4u_all,
                             &fetch4_affine_all,

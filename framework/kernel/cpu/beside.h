@@ -16,41 +16,33 @@ struct beside_pair {
   inti low, high;
 };
 
-template <class T>
-DVR_INLINE void values_of(beside_pair p, real& a, real& b) {
-  constexpr int out = 32 - 8 * int(sizeof(T));  // what lies above the value
-  constexpr bool has_sign = T(-1) < T(0);
-  const vi x = p.low.v << out, y = sizeof(T) == 1 ? p.low.v : p.high.v << out;
-  a = to_real(has_sign ? inti{x >> out} : shr({x}, out));
-  b = to_real(has_sign ? inti{y >> out} : shr({y}, out));
-}
-template <class T>
-DVR_INLINE void levels_of(beside_pair p, real& a, real& b) {
-  constexpr int at = 8 * int(sizeof(T));
-  a = to_real(shr(p.low, at) & I(0xffff));
-  b = to_real((sizeof(T) == 1 ? p.high : shr(p.high, at)) & I(0xffff));
+/// The values of a pair, or with `level` its levels.
+template <class T, bool level>
+DVR_INLINE void unpack(beside_pair p, real& a, real& b) {
+  if constexpr (level) {
+    constexpr int at = 8 * int(sizeof(T));
+    a = to_real(shr(p.low, at) & I(0xffff));
+    b = to_real((sizeof(T) == 1 ? p.high : shr(p.high, at)) & I(0xffff));
+  } else {
+    constexpr int out = 32 - 8 * int(sizeof(T));  // what lies above the value
+    constexpr bool has_sign = T(-1) < T(0);
+    const vi x = p.low.v << out, y = sizeof(T) == 1 ? p.low.v : p.high.v << out;
+    a = to_real(has_sign ? inti{x >> out} : shr({x}, out));
+    b = to_real(has_sign ? inti{y >> out} : shr({y}, out));
+  }
 }
 
 /// The eight corners of a cell.
 struct beside_cell {
   beside_pair row[4];  // y, then z
 
-  template <class T>
-  DVR_INLINE cell8 values() const {
+  template <class T, bool level>
+  DVR_INLINE cell8 corners() const {
     cell8 c;
-    values_of<T>(row[0], c.v000, c.v100);
-    values_of<T>(row[1], c.v010, c.v110);
-    values_of<T>(row[2], c.v001, c.v101);
-    values_of<T>(row[3], c.v011, c.v111);
-    return c;
-  }
-  template <class T>
-  DVR_INLINE cell8 levels() const {
-    cell8 c;
-    levels_of<T>(row[0], c.v000, c.v100);
-    levels_of<T>(row[1], c.v010, c.v110);
-    levels_of<T>(row[2], c.v001, c.v101);
-    levels_of<T>(row[3], c.v011, c.v111);
+    unpack<T, level>(row[0], c.v000, c.v100);
+    unpack<T, level>(row[1], c.v010, c.v110);
+    unpack<T, level>(row[2], c.v001, c.v101);
+    unpack<T, level>(row[3], c.v011, c.v111);
     return c;
   }
 };

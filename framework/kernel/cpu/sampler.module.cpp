@@ -8,6 +8,12 @@
 #define DVR_RGB 0  // the sampler asks the medium only where it is shaded: the same for grey and RGB
 #define DVR_FULL 0
 
+#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+#define DVR_BESIDE 1  // light may lie beside the voxels
+#else
+#define DVR_BESIDE 0
+#endif
+
 namespace {
 using namespace dvr;
 using dvr::floor;

@@ -20,7 +20,7 @@ struct DVR_STRUCT : kernel_base {
   UNIFORM_I(frame_neighbours)
   UNIFORM_I(frame_gradient)
 #undef VOXELS
-#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+#if DVR_BESIDE
   // The voxels with light beside them, where the backend has laid it there.
   const uint8_t* light_beside =
       sizeof(DVR_VOXEL) <= 2 ? this->offered<uint8_t>("frame_light_beside", DVR_ELEMENT_U8) : nullptr;
@@ -28,8 +28,9 @@ struct DVR_STRUCT : kernel_base {
   static constexpr const uint8_t* light_beside = nullptr;
 #endif
 
-  // Bins of the medium as 32 groups of values, a bit each, from the prefix sums over bins: whether a value counts is a
-  // shift away then, not two look-ups, and a group more is only work. SSE has no such shift.
+#if defined(DVR_ISA_avx512) || defined(DVR_ISA_avx2)
+  // Bins of the medium as 32 groups of values, a bit each, from the prefix sums over bins: whether an interval counts
+  // is a shift away then, not two look-ups, and a group more is only work. SSE has no such shift.
   uint32_t shaded_groups = frame_gradient != 0 ? groups_of(medium_shaded_sum) : 0;
   uint32_t lit_groups = frame_lit != 0 ? groups_of(medium_lit_sum) : 0;
   uint32_t groups_of(tablei sum) const {
@@ -42,16 +43,17 @@ struct DVR_STRUCT : kernel_base {
     }
     return groups;
   }
-#if defined(DVR_ISA_avx512) || defined(DVR_ISA_avx2)
-  KFN mask in_groups(uint32_t groups, real v) {
-    const inti group = to_int(medium_coordinate(v) * R(32.0f / (medium_last + 1.0f)));
-    return I(0) < (inti{vi(vu(I(int(groups)).v) >> vu(group.v))} & I(1));
+  KFN inti group_of(real v) { return to_int(medium_coordinate(v) * R(32.0f / (medium_last + 1.0f))); }
+  KFN mask any_group(uint32_t groups, real a, real b) {
+    const inti first = group_of(rmin(a, b)), last = group_of(rmax(a, b));
+    const vu between = (vu(I(2).v) << vu((last - first).v)) - 1;
+    return !(inti{vi((vu(I(int(groups)).v) >> vu(first.v)) & between)} == I(0));
   }
-  KFN mask may_be_shaded(real v) { return in_groups(shaded_groups, v); }
-  KFN mask may_be_lit(real v) { return in_groups(lit_groups, v); }
+  KFN mask may_be_shaded(real a, real b) { return any_group(shaded_groups, a, b); }
+  KFN mask may_be_lit(real a, real b) { return any_group(lit_groups, a, b); }
 #else
-  KFN mask may_be_shaded(real v) { return medium_shaded(v, v); }
-  KFN mask may_be_lit(real v) { return medium_lit(v, v); }
+  KFN mask may_be_shaded(real a, real b) { return medium_shaded(a, b); }
+  KFN mask may_be_lit(real a, real b) { return medium_lit(a, b); }
 #endif
 
   // Moves the packet's origin to the entry point and counts its segments.
@@ -125,7 +127,7 @@ struct DVR_STRUCT : kernel_base {
       } else {
         for (int k = 1; k <= steps; ++k) {
           const real v = load(c->v + k * W);
-          if (any_lane(may_be_shaded(v) && load(c->len + (k - 1) * W) > R(0.0f))) gradient(c, k, o, d);
+          if (any_lane(may_be_shaded(v, v) && load(c->len + (k - 1) * W) > R(0.0f))) gradient(c, k, o, d);
         }
       }
     }
@@ -138,21 +140,21 @@ struct DVR_STRUCT : kernel_base {
 
   KFN void sample(ray_chunk* c, int row, real s, vec3r o, vec3r d) {
     store(c->s + row * W, s);
-#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+#if DVR_BESIDE
     if constexpr (sizeof(DVR_VOXEL) <= 2)
       if (light_beside) return sample_with_light(c, row, o + d * s);
 #endif
     store(c->v + row * W, sample_value(o + d * s));
   }
-#if DVR_HAS_CELLS && !defined(DVR_SCALAR)
+#if DVR_BESIDE
   KFN void sample_with_light(ray_chunk* c, int row, vec3r p) {
     const volume_cell k = sample_cell(p);
     const beside_cell b =
         fetch_beside_cell<DVR_VOXEL>(light_beside, k.base, frame_light_nx, frame_light_nx * frame_light_ny);
-    const real v = volume_mix(b.values<DVR_VOXEL>(), k.f);
+    const real v = volume_mix(b.corners<DVR_VOXEL, false>(), k.f);
     store(c->v + row * W, v);
-    if (frame_samples_ends == 0 && !any_lane(may_be_lit(v))) return;
-    const real m = volume_mix(b.levels<DVR_VOXEL>(), k.f) * R(frame_light_unit);
+    if (frame_samples_ends == 0 && !any_lane(may_be_lit(v, v))) return;
+    const real m = volume_mix(b.corners<DVR_VOXEL, true>(), k.f) * R(frame_light_unit);
     for (int ch = 0; ch < 3; ++ch) store(c->m[ch] + row * W, m);
   }
 #endif
@@ -173,7 +175,7 @@ struct DVR_STRUCT : kernel_base {
     bool done = false;  // the light of row k is there
     for (int k = 0; k < steps; ++k) {
       const real v = load(c->v + (k + 1) * W);
-      const mask lit = ends ? medium_lit(load(c->v + k * W), v) : may_be_lit(v);
+      const mask lit = may_be_lit(ends ? load(c->v + k * W) : v, v);
       const bool wanted = any_lane(lit && load(c->len + k * W) > R(0.0f));
       if (wanted && ends && !done) light(c, k, o, d);
       if (wanted) light(c, k + 1, o, d);
@@ -184,7 +186,7 @@ struct DVR_STRUCT : kernel_base {
     bool done = false;  // the gradient of row k is there
     for (int k = 0; k < steps; ++k) {
       const real v0 = load(c->v + k * W), v1 = load(c->v + (k + 1) * W);
-      const bool wanted = any_lane(medium_shaded(v0, v1) && load(c->len + k * W) > R(0.0f));
+      const bool wanted = any_lane(may_be_shaded(v0, v1) && load(c->len + k * W) > R(0.0f));
       if (wanted && !done) gradient(c, k, o, d);
       if (wanted) gradient(c, k + 1, o, d);
       done = wanted;
