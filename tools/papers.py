@@ -56,7 +56,7 @@ def main(dvrlab, names):
             subprocess.run([sys.executable, *tables, dvrlab], check=True)
             continue
         run = subprocess.run([dvrlab, "run", config, "--out", out])
-        worst = max(worst, run.returncode)
+        worst = max(worst, abs(run.returncode))  # negative: ended by a signal
         if tables and config.stem.startswith("table"):
             subprocess.run([sys.executable, *tables, out / config.stem], check=True)
         else:
